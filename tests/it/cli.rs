@@ -100,7 +100,14 @@ fn wrong_usage_is_2_and_help_is_0() {
         assert_eq!(code(&output), 2, "{arguments:?}");
         assert!(out(&output).is_empty() && !err(&output).is_empty(), "{arguments:?}");
     }
-    for arguments in [&["--help"][..], &["--version"], &["lint", "--help"]] {
+    for arguments in [
+        &["--help"][..],
+        &["--version"],
+        &["lint", "--help"],
+        &["help", "--help"],
+        &["help", "-V"],
+        &["fixed-function", "-V"],
+    ] {
         let output = folder.run(arguments);
         assert_eq!(code(&output), 0, "{arguments:?}");
         assert!(out(&output).contains("glisten"), "{arguments:?}");
@@ -314,6 +321,36 @@ fn files_are_grouped_by_stem_and_by_program() {
     assert!(folder.names("denied").is_empty());
     let allowed = folder.run(&["compile", "tri.vert", "-o", "allowed", "--deny", "warnings", "--allow", "lone-stage"]);
     assert_eq!(code(&allowed), 0, "{}", err(&allowed));
+}
+
+#[test]
+fn a_file_is_one_file_by_any_path() {
+    let main = |name: &str| {
+        format!(
+            "#version 150\n#extension GL_ARB_shading_language_include : require\n#include \"{name}\"\nout vec4 c;\nvoid main() {{ c = vec4(bad()); }}\n"
+        )
+    };
+    let folder = Folder::triangle();
+    fs::write(folder.path("bad.glsl"), "float bad() { return zz; }\n").expect("written");
+    fs::write(folder.path("a.frag"), main("bad.glsl")).expect("written");
+    fs::write(folder.path("b.frag"), main("bad.glsl")).expect("written");
+    let absolute = folder.path("b.frag").display().to_string();
+    let output = folder.run(&["lint", "a.frag", &absolute]);
+    assert_eq!((code(&output), out(&output).matches("E0301").count()), (1, 1), "{}", out(&output));
+    let output = folder.run(&["compile", "--check", "--program", "tri.vert,tri.frag,./tri.vert"]);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+}
+
+#[cfg(unix)]
+#[test]
+fn an_output_through_a_link_keeps_the_link() {
+    let folder = Folder::triangle();
+    fs::create_dir(folder.path("out")).expect("a folder");
+    std::os::unix::fs::symlink("elsewhere.json", folder.path("out/tri.json")).expect("linked");
+    for _ in 0..2 {
+        assert_eq!(code(&folder.run(&["compile", "tri.vert", "tri.frag", "-o", "out"])), 0);
+        assert!(folder.path("out/tri.json").is_symlink() && folder.path("out/elsewhere.json").is_file());
+    }
 }
 
 #[test]

@@ -45,6 +45,9 @@ fn shells_complete_commands_and_help_explains_them() {
         for word in ["new-scene", "bind-attrib", "verify"] {
             assert!(out(&output).contains(word), "{shell}: {word}");
         }
+        for hidden in [" -0 ", "--worker"] {
+            assert!(!out(&output).contains(hidden), "{shell}: {hidden}");
+        }
     }
     assert_eq!(code(&folder.run(&["completions", "nonesuch"])), 2);
     let (help, flag) = (folder.run(&["help", "lint"]), folder.run(&["lint", "--help"]));

@@ -8,7 +8,7 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use glisten::scene::{Loaded, MemoryFiles, load};
 use glisten_scene::picture::Image;
-use glisten_verify::scene::{BlendFactor, Cull};
+use glisten_verify::scene::{Blend, BlendFactor, Cull};
 use std::collections::BTreeMap;
 use std::f32::consts::PI;
 use std::fs;
@@ -93,7 +93,7 @@ fn materials_lights_and_the_camera_come_from_the_file() {
     let [paint, gold] = draws.as_slice() else { panic!("{} draws", draws.len()) };
     assert_eq!((paint.state.cull, paint.state.blend, paint.state.depth_write), (Cull::Back, None, true));
     assert_eq!((gold.state.cull, gold.state.depth_write), (Cull::None, false));
-    assert_eq!(gold.state.blend, Some((BlendFactor::SrcAlpha, BlendFactor::OneMinusSrcAlpha)));
+    assert_eq!(gold.state.blend, Some(Blend::new(BlendFactor::SrcAlpha, BlendFactor::OneMinusSrcAlpha)));
     near(&value(paint, "finish.base_color"), &[0.8, 0.4, 0.2]);
     assert_eq!((value(paint, "finish.metallic"), value(paint, "finish.roughness")), (vec![0.0], vec![0.5]));
     assert_eq!((value(paint, "finish.alpha"), value(gold, "finish.alpha")), (vec![-1.0], vec![0.5]));
@@ -334,8 +334,8 @@ fn extensions_become_layers() {
         (value(through, "finish.transmission_pass"), value(surface, "finish.transmission_pass")),
         (vec![1.0], vec![2.0])
     );
-    assert_eq!(through.state.blend, Some((BlendFactor::DstColor, BlendFactor::Zero)));
-    assert_eq!(surface.state.blend, Some((BlendFactor::One, BlendFactor::One)));
+    assert_eq!(through.state.blend, Some(Blend::new(BlendFactor::DstColor, BlendFactor::Zero)));
+    assert_eq!(surface.state.blend, Some(Blend::new(BlendFactor::One, BlendFactor::One)));
     for draw in [through, surface] {
         assert!(!draw.state.depth_write);
         near(&value(draw, "finish.sheen"), &[0.5, 1.0, 0.25]);

@@ -89,6 +89,16 @@ fn mistakes_are_told() {
             "E0905",
             "which has no `samples`",
         ),
+        (
+            scene("sampler2DRect", "ivec2(p)", "width = 1, height = 1, filter = \"trilinear\", values = [1, 1, 1, 1]"),
+            "E0905",
+            "its filter is `nearest` or `linear`",
+        ),
+        (
+            scene("samplerBuffer", "p.x", "width = 1, filter = \"linear\", values = [1, 1, 1, 1]"),
+            "E0905",
+            "which cannot be filtered",
+        ),
         (scene("isampler2DMS", "p, 0", "width = 1, height = 1, values = [1.5, 1, 1, 1]"), "E0910", "not a texel of it"),
     ] {
         let found = told(&loaded);

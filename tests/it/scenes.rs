@@ -204,6 +204,14 @@ fn wrong_types_and_values_are_told_where_they_stand() {
     assert_eq!(mistake("lit = true", "lit = \"yes\"").0, "E0904");
     assert_eq!(mistake("[[draw]]", "[[draw]]\nprimitive = \"quads\"").0, "E0905");
     assert_eq!(mistake("[[draw]]", "[[draw]]\nblend = [\"one\"]").0, "E0904");
+    for (blend, place) in [
+        ("blend = [\"constant_color\", \"one\"]\nblend_color = [2, 0, 0, 0]", "[2, 0, 0, 0]"),
+        ("blend = \"add\"\nblend_color = [1, 0, 0, 0]", "[1, 0, 0, 0]"),
+        ("blend = [\"constant_color\", \"constant_alpha\"]", "[\"constant_color\", \"constant_alpha\"]"),
+    ] {
+        let (code, at, text) = mistake("[[draw]]", &format!("[[draw]]\n{blend}"));
+        assert!(code == "E0905" && at == place, "{code} {at}: {text}");
+    }
 }
 
 #[test]

@@ -33,6 +33,20 @@ fn the_tests_of_the_fixtures_pass() {
     assert_eq!(code, Some(0));
 }
 
+#[test]
+fn a_file_that_is_named_twice_is_run_once() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let text = std::fs::read(fixtures().join("uniforms_and_blocks.shader_test")).expect("the fixture");
+    std::fs::write(folder.path().join("a.shader_test"), text).expect("written");
+    let run = Command::new(env!("CARGO_BIN_EXE_glisten"))
+        .args(["test", "--format", "json", "--backend", "cpu", "a.shader_test", ".", "./a.shader_test"])
+        .current_dir(folder.path())
+        .output()
+        .expect("the program runs");
+    let results: Vec<Value> = serde_json::from_slice(&run.stdout).expect("JSON");
+    assert_eq!((results.len(), results[0]["file"].as_str()), (1, Some("a.shader_test")), "{results:?}");
+}
+
 /// The results for the fixture with a text in it replaced.
 fn changed(from: &str, to: &str) -> (Vec<Value>, Option<i32>) {
     let text = std::fs::read_to_string(fixtures().join("uniforms_and_blocks.shader_test")).expect("the fixture");

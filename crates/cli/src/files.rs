@@ -55,6 +55,18 @@ pub(crate) fn real(path: &Path) -> PathBuf {
     real.unwrap_or_else(|_| path.to_owned())
 }
 
+/// One name for a file, whatever the path to its folder: `a.glsl`, `./a.glsl`, `../here/a.glsl`. A link is a file of its own. What is on
+/// no disk keeps its name.
+pub(crate) fn one_name(name: &str) -> String {
+    let path = Path::new(name);
+    let folder = path.parent().map(|folder| if folder.as_os_str().is_empty() { Path::new(".") } else { folder });
+    let real = folder.filter(|_| !name.starts_with('<')).and_then(|folder| fs::canonicalize(folder).ok());
+    match (real, path.file_name()) {
+        (Some(folder), Some(file)) => folder.join(file).to_string_lossy().into_owned(),
+        _ => name.to_owned(),
+    }
+}
+
 /// The name of a file from a folder, with `..` where it is not below that. Both are absolute. `None` if nothing leads from one to the
 /// other: they are on different drives.
 pub(crate) fn from_folder(file: &Path, folder: &Path) -> Option<PathBuf> {
@@ -348,6 +360,17 @@ fn open_to_write(path: &Path) -> Result<fs::File, Failure> {
     })
 }
 
+/// Where the links of a path lead that is not there yet.
+fn end_of_links(path: &Path) -> PathBuf {
+    const MOST: usize = 40;
+    let mut at = path.to_owned();
+    for _ in 0..MOST {
+        let Ok(next) = fs::read_link(&at) else { break };
+        at = at.parent().unwrap_or(Path::new("")).join(next);
+    }
+    at
+}
+
 /// Writes a file completely: to a temporary name next to it, which is then renamed. Anything but a regular file (a
 /// pipe, `/dev/null`) is written to directly. It may be one that was read, to change it in place. One that the user may not write
 /// stays as it is.
@@ -365,7 +388,7 @@ pub(crate) fn replace(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
             open_to_write(path)?;
             fs::canonicalize(path).unwrap_or_else(|_| path.to_owned())
         }
-        Err(_) => path.to_owned(),
+        Err(_) => end_of_links(path),
     };
     let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     sweep(folder);

@@ -293,13 +293,14 @@ pub(crate) fn collect(
         if names.is_empty() {
             return Err(Failure::usage("--program names no file").help("write `--program a.vert,b.frag`"));
         }
-        in_programs.extend(names.iter().map(|name| identity(Path::new(name))));
+        let mut own = BTreeSet::new();
         let mut listed = Vec::new();
-        for name in names {
+        for name in names.into_iter().filter(|name| own.insert(identity(Path::new(name)))) {
             listed.extend(
                 stages_of(Path::new(name), args, &engines, false)?.into_iter().filter(|input| !input.is_later()),
             );
         }
+        in_programs.extend(own);
         let group = Group::new(listed.first().map(Input::stem).unwrap_or_default(), listed);
         check_program(&group, files)?;
         if let [input] = group.inputs.as_slice() {

@@ -131,6 +131,7 @@ fn parsed(arguments: impl IntoIterator<Item = OsString>) -> Result<(Command, Con
     let given: Vec<OsString> = arguments.into_iter().collect();
     let color = ColorChoice::asked_for(&given);
     let arguments = responses::expanded(given).map_err(|failure| end(Err(failure), &Console::new(false, color)))?;
+    let arguments = of_help(arguments);
     let color = ColorChoice::asked_for(&arguments);
     let command = examples::with_examples_of(Cli::command(), &arguments).color(color.into());
     let parsed = command.try_get_matches_from(arguments);
@@ -146,6 +147,20 @@ fn parsed(arguments: impl IntoIterator<Item = OsString>) -> Result<(Command, Con
         memory::limit(bytes).map_err(|failure| end(Err(failure), &console))?;
     }
     Ok((cli.command, console))
+}
+
+/// The arguments, where `help` has a flag of all commands in place of a command's name.
+fn of_help(arguments: Vec<OsString>) -> Vec<OsString> {
+    let flag = match arguments.as_slice() {
+        [_, command, flag] if command == "help" => flag.to_str(),
+        _ => None,
+    };
+    let name = arguments.first().cloned();
+    match flag {
+        Some("--help" | "-h") => name.into_iter().chain(["help".into(), "help".into()]).collect(),
+        Some("--version" | "-V") => name.into_iter().chain(["--version".into()]).collect(),
+        _ => arguments,
+    }
 }
 
 /// Runs a command on a large stack, and reports a failure.

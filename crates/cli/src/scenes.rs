@@ -51,7 +51,8 @@ pub(crate) struct MachineArgs {
     #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, allow_negative_numbers = true)]
     timeout: Option<f64>,
     /// The GPU to use, by a part of its name, or `software` (default: `GLISTEN_ADAPTER` of the environment, or the
-    /// first hardware adapter, or else the first software adapter)
+    /// first that opens, discrete and integrated GPUs before software adapters; on a machine without a GPU that is the
+    /// first software adapter)
     #[arg(long, value_name = "NAME")]
     adapter: Option<String>,
 }

@@ -8,7 +8,7 @@ use crate::batch::Batch;
 use crate::files;
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::write::{self, Finding, Region, Scope};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The diagnostics that have been reported.
 #[derive(Debug, Default)]
@@ -16,6 +16,8 @@ pub(crate) struct Told {
     /// Each of them once, in order.
     pub(crate) findings: Vec<Finding>,
     seen: BTreeSet<(Region, &'static str, String)>,
+    /// The files by the names that findings have.
+    files: BTreeMap<String, String>,
 }
 
 impl Told {
@@ -24,12 +26,23 @@ impl Told {
         let mut fresh = Vec::new();
         for diagnostic in &batch.diagnostics {
             let finding = Finding::new(&batch.sources, diagnostic);
-            if self.seen.insert((finding.region.clone(), finding.code.id, finding.message.clone())) {
+            let region = self.region(&finding);
+            if self.seen.insert((region, finding.code.id, finding.message.clone())) {
                 self.findings.push(finding);
                 fresh.push(diagnostic);
             }
         }
         fresh
+    }
+
+    /// The region of a finding, with one name for its file, however the path there is written.
+    fn region(&mut self, finding: &Finding) -> Region {
+        let name = &finding.region.file;
+        let file = match self.files.get(name) {
+            Some(file) => file.clone(),
+            None => self.files.entry(name.clone()).or_insert(files::one_name(name)).clone(),
+        };
+        Region { file, ..finding.region.clone() }
     }
 
     /// The findings as a text for programs; none for the format of people, which is written with the sources.

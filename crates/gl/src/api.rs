@@ -181,6 +181,7 @@ impl Api {
         stencil_func(function: u32, reference: i32, mask: u32);
         stencil_op(fail: u32, depth_fail: u32, pass: u32);
         blend_func(source: u32, destination: u32);
+        blend_color(r: f32, g: f32, b: f32, a: f32);
         disable(what: u32);
     }
 

@@ -10,7 +10,7 @@ use super::{Error, Gl, fixed, programs, textures, uniforms, vertices};
 use glisten_front::hir::Stage;
 use glisten_front::link::Program;
 use glisten_scene::picture::Picture;
-use glisten_scene::{Cull, Draw, Format, Framebuffer, Scene, State};
+use glisten_scene::{Blend, Cull, Draw, Format, Framebuffer, Scene, State};
 use std::sync::Arc;
 
 impl Gl {
@@ -163,8 +163,9 @@ fn set_state(api: &Api, state: &State, disabled: u8) {
     api.stencil_func(glow::ALWAYS, 1, 0xff);
     api.stencil_op(glow::KEEP, glow::KEEP, glow::REPLACE);
     switch(glow::BLEND, state.blend.is_some());
-    if let Some((source, destination)) = state.blend {
+    if let Some(Blend { source, destination, constant: [r, g, b, a] }) = state.blend {
         api.blend_func(factor(source), factor(destination));
+        api.blend_color(r, g, b, a);
     }
 }
 

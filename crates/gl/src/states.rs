@@ -64,6 +64,10 @@ pub(super) fn factor(factor: BlendFactor) -> u32 {
         BlendFactor::DstAlpha => glow::DST_ALPHA,
         BlendFactor::OneMinusDstAlpha => glow::ONE_MINUS_DST_ALPHA,
         BlendFactor::SrcAlphaSaturate => glow::SRC_ALPHA_SATURATE,
+        BlendFactor::ConstantColor => glow::CONSTANT_COLOR,
+        BlendFactor::OneMinusConstantColor => glow::ONE_MINUS_CONSTANT_COLOR,
+        BlendFactor::ConstantAlpha => glow::CONSTANT_ALPHA,
+        BlendFactor::OneMinusConstantAlpha => glow::ONE_MINUS_CONSTANT_ALPHA,
     }
 }
 

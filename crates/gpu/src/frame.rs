@@ -215,6 +215,9 @@ fn record(pass: &mut wgpu::RenderPass<'_>, prepared: &Prepared) {
     pass.set_stencil_reference(1);
     for draw in &prepared.draws {
         pass.set_pipeline(&draw.pipeline);
+        if let Some(constant) = draw.constant {
+            pass.set_blend_constant(constant);
+        }
         for (index, group) in (0..).zip(&draw.groups) {
             pass.set_bind_group(index, group, &[]);
         }

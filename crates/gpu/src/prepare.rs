@@ -36,6 +36,8 @@ pub(super) struct PreparedDraw {
     /// The number of vertices, or of indices.
     pub(super) count: u32,
     pub(super) instances: u32,
+    /// The constant color of blending.
+    pub(super) constant: Option<wgpu::Color>,
 }
 
 /// Returns the code of a stage of a draw.
@@ -251,11 +253,13 @@ impl Gpu {
         };
         let Made { pipeline, layouts, .. } = &made[index];
         let groups = self.bind(framebuffer, draw, &bindings, layouts)?;
+        let constant = draw.state.blend.map(|blend| blend.one_constant().map(f64::from));
+        let constant = constant.map(|[r, g, b, a]| wgpu::Color { r, g, b, a });
         if sprites {
             let vertex_buffers = rows.iter().map(|rows| self.buffer(&rows.bytes, wgpu::BufferUsages::VERTEX)).collect();
             let (count, instances) = (sprites::CORNERS, sprites::count(draw));
             let pipeline = pipeline.clone();
-            return Ok(PreparedDraw { pipeline, groups, vertex_buffers, indices: None, count, instances });
+            return Ok(PreparedDraw { pipeline, groups, vertex_buffers, indices: None, count, instances, constant });
         }
         let state = &draw.state;
         let list = assembly::list(state.primitive, draw.vertex_count, draw.indices.as_deref(), state.provoking_last);
@@ -267,6 +271,7 @@ impl Gpu {
             indices: list.map(|list| self.buffer(bytemuck::cast_slice(&list), wgpu::BufferUsages::INDEX)),
             count,
             instances: draw.instances,
+            constant,
         })
     }
 

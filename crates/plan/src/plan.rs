@@ -163,6 +163,7 @@ fn planned(framebuffer: &Framebuffer, draw: &Draw, bytes: &mut Bytes, written: &
         "indices": indices,
         "count": count,
         "instances": instances,
+        "blendConstant": state.blend.map(|blend| blend.one_constant()),
         "primitive": {
             "topology": word(primitive.topology),
             "frontFace": word(primitive.front_face),

@@ -1,6 +1,6 @@
 //! Tables from OpenGL's fixed-function state to wgpu's.
 
-use glisten_scene::{BlendFactor, Compare, Cull, Filter, Format, Primitive, State, Wrap};
+use glisten_scene::{Blend, BlendFactor, Compare, Cull, Filter, Format, Primitive, State, Wrap};
 use wgpu_types as wgpu;
 
 /// The texture format of a color attachment.
@@ -86,11 +86,11 @@ pub fn depth_stencil(state: &State) -> wgpu::DepthStencilState {
     }
 }
 
-/// Blend factors, the same for color and alpha.
-pub fn blend(factors: (BlendFactor, BlendFactor)) -> wgpu::BlendState {
+/// Blend factors, the same for color and alpha. The constant is set apart: [`Blend::one_constant`].
+pub fn blend(blend: Blend) -> wgpu::BlendState {
     let component = wgpu::BlendComponent {
-        src_factor: factor(factors.0),
-        dst_factor: factor(factors.1),
+        src_factor: factor(blend.source),
+        dst_factor: factor(blend.destination),
         operation: wgpu::BlendOperation::Add,
     };
     wgpu::BlendState { color: component, alpha: component }
@@ -109,6 +109,8 @@ fn factor(factor: BlendFactor) -> wgpu::BlendFactor {
         BlendFactor::DstAlpha => wgpu::BlendFactor::DstAlpha,
         BlendFactor::OneMinusDstAlpha => wgpu::BlendFactor::OneMinusDstAlpha,
         BlendFactor::SrcAlphaSaturate => wgpu::BlendFactor::SrcAlphaSaturated,
+        BlendFactor::ConstantColor | BlendFactor::ConstantAlpha => wgpu::BlendFactor::Constant,
+        BlendFactor::OneMinusConstantColor | BlendFactor::OneMinusConstantAlpha => wgpu::BlendFactor::OneMinusConstant,
     }
 }
 

@@ -59,6 +59,8 @@ mod tests {
             (word(wgpu::CompareFunction::LessEqual), "less-equal"),
             (word(wgpu::BlendFactor::OneMinusSrcAlpha), "one-minus-src-alpha"),
             (word(wgpu::BlendFactor::SrcAlphaSaturated), "src-alpha-saturated"),
+            (word(wgpu::BlendFactor::Constant), "constant"),
+            (word(wgpu::BlendFactor::OneMinusConstant), "one-minus-constant"),
             (word(wgpu::AddressMode::MirrorRepeat), "mirror-repeat"),
             (word(wgpu::AddressMode::ClampToEdge), "clamp-to-edge"),
             (word(wgpu::FrontFace::Ccw), "ccw"),

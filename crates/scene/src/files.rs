@@ -68,7 +68,7 @@ impl fmt::Display for FileError {
         match self {
             Self::Missing => f.write_str("there is no such file"),
             Self::Folder => f.write_str("it is a folder, not a file"),
-            Self::Unreadable(reason) => write!(f, "it cannot be read: {reason}"),
+            Self::Unreadable(reason) => f.write_str(reason),
         }
     }
 }

@@ -37,7 +37,7 @@ pub use load::{
     shape_names, write,
 };
 pub use model::{
-    AttributeData, AttributeValues, BlendFactor, Compare, Cull, Draw, Filter, FixedDraw, Format, Framebuffer,
+    AttributeData, AttributeValues, Blend, BlendFactor, Compare, Cull, Draw, Filter, FixedDraw, Format, Framebuffer,
     Primitive, Sampling, Scene, State, Texels, Texture, TextureLevel, Wrap,
 };
 pub use portrait::{Portrait, PortraitError, is_model_file, portrait};

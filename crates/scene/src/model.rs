@@ -150,7 +150,7 @@ impl Compare {
     }
 }
 
-/// Blend factors (OpenGL 3.2 table 4.2), without those of a constant color.
+/// Blend factors (OpenGL 3.2 table 4.2).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum BlendFactor {
@@ -165,6 +165,10 @@ pub enum BlendFactor {
     DstAlpha,
     OneMinusDstAlpha,
     SrcAlphaSaturate,
+    ConstantColor,
+    OneMinusConstantColor,
+    ConstantAlpha,
+    OneMinusConstantAlpha,
 }
 
 impl BlendFactor {
@@ -181,11 +185,51 @@ impl BlendFactor {
         ("dst_alpha", Self::DstAlpha),
         ("one_minus_dst_alpha", Self::OneMinusDstAlpha),
         ("src_alpha_saturate", Self::SrcAlphaSaturate),
+        ("constant_color", Self::ConstantColor),
+        ("one_minus_constant_color", Self::OneMinusConstantColor),
+        ("constant_alpha", Self::ConstantAlpha),
+        ("one_minus_constant_alpha", Self::OneMinusConstantAlpha),
     ];
+
+    /// Whether it reads the red, green and blue of the constant color.
+    pub fn reads_constant_color(self) -> bool {
+        matches!(self, Self::ConstantColor | Self::OneMinusConstantColor)
+    }
+
+    /// Whether it reads the alpha of the constant color for all components.
+    pub fn reads_constant_alpha(self) -> bool {
+        matches!(self, Self::ConstantAlpha | Self::OneMinusConstantAlpha)
+    }
 
     /// By OpenGL's name: `GL_` and the scene file's name in capitals.
     pub fn of_opengl(name: &str) -> Option<Self> {
         of_opengl(name, Self::NAMES)
+    }
+}
+
+/// How the color of a fragment and that of its pixel are added, the same for color and alpha (OpenGL 3.2 §4.1.7).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Blend {
+    /// The factor of the fragment's color.
+    pub source: BlendFactor,
+    /// The factor of the pixel's color.
+    pub destination: BlendFactor,
+    /// The constant color, from 0 to 1; OpenGL's initial one is 0.
+    pub constant: [f32; 4],
+}
+
+impl Blend {
+    /// Blending by two factors, with a constant color of 0.
+    pub const fn new(source: BlendFactor, destination: BlendFactor) -> Self {
+        Self { source, destination, constant: [0.0; 4] }
+    }
+
+    /// The constant of an API that has one for all factors, as WebGPU has: where a factor reads the constant alpha, that is in
+    /// every component. No scene reads both.
+    pub fn one_constant(&self) -> [f32; 4] {
+        let [.., alpha] = self.constant;
+        let by_alpha = [self.source, self.destination].iter().any(|factor| factor.reads_constant_alpha());
+        if by_alpha { [alpha; 4] } else { self.constant }
     }
 }
 
@@ -206,8 +250,8 @@ pub struct State {
     pub depth_write: bool,
     /// The comparison function of the depth test.
     pub depth_func: Compare,
-    /// The source and destination factors, the same for color and alpha; `None` for no blending.
-    pub blend: Option<(BlendFactor, BlendFactor)>,
+    /// How colors are blended; `None` for no blending.
+    pub blend: Option<Blend>,
     /// How many clip distances are enabled.
     pub clip_distances: u32,
     /// Whether `gl_PointSize` has an effect; otherwise points are one pixel wide.

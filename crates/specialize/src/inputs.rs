@@ -5,7 +5,7 @@
 use super::facts::{Fact, Facts, Range, What};
 use super::known::{Input, Known, KnownTexture};
 use glisten_front::builtin::BuiltinVariable;
-use glisten_front::hir::{GlobalId, Interpolation, ScalarValue, Shader, Stage, Storage};
+use glisten_front::hir::{Global, GlobalId, Interpolation, ScalarValue, Shader, Stage, Storage};
 use glisten_front::link::Program;
 
 /// Facts of each global of a stage. `ends` are the facts of the vertex stage's globals at its end.
@@ -29,7 +29,13 @@ pub(super) fn inputs(program: &Program, shader: &Shader, known: &Known, ends: Op
     uniforms(program, shader.stage, known, &mut facts);
     match (shader.stage, ends) {
         (Stage::Vertex, _) => attributes(program, known, &mut facts),
-        (Stage::Fragment, Some(ends)) => varyings(program, ends, known.state.interpolation_reach, &mut facts),
+        (Stage::Fragment, Some(ends)) => {
+            varyings(program, ends, known.state.interpolation_reach, &mut facts);
+            let depth = depth(program, ends).filter(|_| known.state.framebuffer.is_some());
+            if let (Some(depth), Some(cell)) = (depth, frag_coord(shader).and_then(|id| facts.get_mut(id.index()))) {
+                fill(cell, 2, depth.into_iter());
+            }
+        }
         (Stage::Fragment | Stage::Geometry, _) => {}
     }
     facts
@@ -131,6 +137,39 @@ fn varyings(program: &Program, ends: &[Facts], reach: Option<f64>, facts: &mut [
             }
         }
     }
+}
+
+fn frag_coord(shader: &Shader) -> Option<GlobalId> {
+    let is_own = |global: &Global| global.builtin == Some(BuiltinVariable::FragCoord);
+    shader.globals().find(|(_, global)| is_own(global)).map(|(id, _)| id)
+}
+
+/// Facts of `gl_FragCoord.zw` where all vertices have one z and one w (OpenGL 3.2 §2.12, GLSL 1.50 §7.2). 1 / w is 1 where w is; other
+/// quotients are rounded, and so is depth, on some machines to the 24 bits of a depth buffer.
+fn depth(program: &Program, ends: &[Facts]) -> Option<[Fact; 2]> {
+    let is_position =
+        |global: &Global| global.builtin == Some(BuiltinVariable::Position) && global.storage == Storage::Out;
+    let (position, _) = program.stage(Stage::Vertex)?.globals().find(|(_, global)| is_position(global))?;
+    let number = |component: usize| match ends.get(position.index())?.get(component)?.what {
+        What::Value(ScalarValue::Float(value)) => Some(f64::from(value)),
+        _ => None,
+    };
+    let w = number(3).filter(|w| (1e-6..1e6).contains(w))?;
+    let z = number(2).map(|z| z / w).filter(|z| (-1.0..=1.0).contains(z));
+    let depth = z.map_or(Fact::ANY, |z| near(z.mul_add(0.5, 0.5), 1.0, 1.0));
+    let reciprocal = if w.to_bits() == 1.0_f64.to_bits() {
+        Fact::bound(ScalarValue::Float(1.0))
+    } else {
+        near(w.recip(), w.recip(), f64::INFINITY)
+    };
+    Some([depth, reciprocal])
+}
+
+/// A range around a number that is rounded, neither below 0 nor above a limit.
+fn near(value: f64, size: f64, most: f64) -> Fact {
+    const ROUNDING: f64 = 1e-4;
+    let range = Range::between((value - size * ROUNDING).max(0.0), (value + size * ROUNDING).min(most));
+    Fact::in_range(Range { negative_zero: false, ..range })
 }
 
 fn interpolated(fact: Fact, interpolation: Interpolation, reach: Option<f64>) -> Fact {

@@ -16,7 +16,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 pub use glisten_scene::{
-    AttributeData, AttributeValues, BlendFactor, Compare, Cull, DiskFiles, Draw, FileError, FileSource, Filter,
+    AttributeData, AttributeValues, Blend, BlendFactor, Compare, Cull, DiskFiles, Draw, FileError, FileSource, Filter,
     FixedDraw, Format, Framebuffer, Library, Loaded, MAX_ATTACHMENTS, MAX_PIXELS, MAX_SIDE, MemoryFiles, NoLibrary,
     Portrait, PortraitError, Primitive, Sampling, Scene, State, Texels, Texture, TextureLevel, Wrap, is_model_file,
     portrait,

@@ -648,6 +648,59 @@ fn a_varying_that_is_the_same_everywhere_is_known_across_the_stages() {
     assert!(residual.left_out.iter().any(|one| one.what.name() == "varying"));
 }
 
+/// Depth is rounded, so that a comparison far from it is decided, and no other; 1 / 1 is 1.
+#[test]
+fn the_depth_that_all_vertices_have_decides_what_it_can() {
+    let left = |body: &str, framebuffer: Option<[u32; 2]>| {
+        let vertex = "#version 150\nin vec2 p;\nvoid main() { gl_Position = vec4(p, 0.0, 1.0); }\n";
+        let fragment = format!("#version 150\nout vec4 color;\nvoid main() {{ color = vec4({body}); }}\n");
+        let source = |name: &str, text: &str, stage| Source { name: name.into(), text: text.into(), stage };
+        let sources = [source("a.vert", vertex, Stage::Vertex), source("a.frag", &fragment, Stage::Fragment)];
+        let program = Compiler::new(Options::default()).compile(&sources).program.expect("it compiles");
+        let mut known = Known::default();
+        known.state.framebuffer = framebuffer;
+        specialize(&program, &known).text(Stage::Fragment).expect("a stage").to_owned()
+    };
+    for decided in
+        ["gl_FragCoord.z > 0.6 ? 1.0 : 0.5", "gl_FragCoord.w < 0.5", "gl_FragCoord.w * 3.0", "gl_FragCoord.z < 0.4"]
+    {
+        let text = left(decided, Some([16, 16]));
+        assert!(!text.contains("gl_FragCoord"), "{decided}: {text}");
+        let text = left(decided, None);
+        assert!(text.contains("gl_FragCoord"), "whoever draws may have another range of depths: {text}");
+    }
+    for open in ["gl_FragCoord.z > 0.5", "gl_FragCoord.z", "gl_FragCoord.z == 0.5"] {
+        let text = left(open, Some([16, 16]));
+        assert!(text.contains("gl_FragCoord.z"), "{open}: {text}");
+    }
+}
+
+#[test]
+fn a_loop_that_stays_counts_what_it_counts() {
+    const WORK: &str = "c += sin(c * 3.0 + c.yzx); c *= cos(c);";
+    let kept = |body: &str| left_of(&format!("{body} c /= float(k);"));
+    for (body, count) in [
+        (format!("int k = 0; for (int i = 0; i < 100; i++) {{ {WORK} k++; }}"), "100.0"),
+        (
+            format!("int k = 5; for (int i = 0; i < 70; i++) for (int j = -1; j <= 1; ++j) {{ {WORK} k += 2; }}"),
+            "425.0",
+        ),
+        (format!("int k = 0; for (; k < 90; k++) {{ {WORK} }}"), "90.0"),
+    ] {
+        let text = kept(&body);
+        assert!(text.contains("for (") && text.contains(count) && !text.contains("float("), "{body}: {text}");
+    }
+    for body in [
+        format!("int k = 1; for (int i = 0; i < 100; i++) {{ {WORK} if (c.x > 0.5) k++; }}"),
+        format!("int k = 1; for (int i = 0; i < 100; i++) {{ {WORK} if (c.x > 0.5) break; k++; }}"),
+        format!("int k = 1; for (int i = 0; i < 100; i++) {{ {WORK} k++; k *= 2; }}"),
+        format!("int k = 1; for (int i = 0; i < 100; i++) {{ {WORK} k++; i += int(c.x); }}"),
+    ] {
+        let text = kept(&body);
+        assert!(text.contains("float(k"), "{body}: {text}");
+    }
+}
+
 #[test]
 fn hostile_programs_come_back() {
     let time = |what: &str, fragment: &str, known: &[(&str, &[f32])]| {

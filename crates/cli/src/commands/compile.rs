@@ -44,7 +44,7 @@ pub(crate) struct CompileArgs {
     /// Remove outputs of earlier runs that no variant has any more
     #[arg(long, conflicts_with_all = ["files", "programs", "emit"])]
     prune: bool,
-    /// Check everything, but write nothing
+    /// Check everything, but write nothing, neither a depfile nor a manifest
     #[arg(long)]
     check: bool,
     /// Print the typed program (HIR) instead of writing files

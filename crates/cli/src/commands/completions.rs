@@ -4,8 +4,9 @@ use crate::Cli;
 use crate::commands::examples::Examples;
 use crate::console::Console;
 use crate::exit::{Exit, Outcome};
-use clap::{Args, CommandFactory};
+use clap::{Args, Command, CommandFactory};
 use clap_complete::Shell;
+use std::collections::BTreeSet;
 
 /// Examples of its use.
 pub(crate) const EXAMPLES: Examples = &[
@@ -27,6 +28,38 @@ pub(crate) fn run(args: &CompletionsArgs, console: &Console) -> Outcome {
     let mut program = Cli::command();
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut program, "glisten", &mut script);
+    if args.shell == Shell::Bash {
+        script = without(&hidden(&program), &String::from_utf8_lossy(&script)).into_bytes();
+    }
     console.output_bytes(&script)?;
     Ok(Exit::Ok)
+}
+
+/// The flags that no help names, of all commands.
+fn hidden(program: &Command) -> BTreeSet<String> {
+    let commands = || program.get_subcommands().chain([program]);
+    let flags = |is_hidden: bool| {
+        let arguments = commands().flat_map(Command::get_arguments).filter(move |one| one.is_hide_set() == is_hidden);
+        arguments.flat_map(|one| {
+            let short = one.get_short().map(|short| format!("-{short}"));
+            short.into_iter().chain(one.get_long().map(|long| format!("--{long}")))
+        })
+    };
+    let shown: BTreeSet<String> = flags(false).collect();
+    flags(true).filter(|flag| !shown.contains(flag)).collect()
+}
+
+/// The script for bash, whose lists of flags have the hidden ones, too.
+fn without(hidden: &BTreeSet<String>, script: &str) -> String {
+    let mut text = String::new();
+    for line in script.split_inclusive('\n') {
+        match line.split_once("opts=\"") {
+            Some((indent, list)) => {
+                let words: Vec<&str> = list.split(' ').filter(|word| !hidden.contains(*word)).collect();
+                text.push_str(&format!("{indent}opts=\"{}", words.join(" ")));
+            }
+            None => text.push_str(line),
+        }
+    }
+    text
 }

@@ -11,7 +11,7 @@ use crate::exit::{Exit, Failure, Outcome};
 use crate::files::{self, SceneFiles};
 use crate::session::Session;
 use clap::builder::PossibleValuesParser;
-use clap::{Args, ValueEnum};
+use clap::{ArgAction, Args, ValueEnum};
 use glisten_front::Stage;
 use glisten_scene::fixed::{
     ColorMaterial, EnvironmentMode, FogMode, FogSource, GlslDialect, NormalScaling, Pipeline, TexGen, TextureTarget,
@@ -40,6 +40,9 @@ pub(crate) struct FixedFunctionArgs {
     /// The language to write
     #[arg(long, value_enum, default_value_t, value_name = "VERSION")]
     version: VersionArg,
+    /// Print the version of the program, as `--version` does of other commands
+    #[arg(short = 'V', action = ArgAction::Version)]
+    _program: Option<bool>,
     /// Write `fixed.vert` and `fixed.frag` into this folder (default: standard output)
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,

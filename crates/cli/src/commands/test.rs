@@ -7,7 +7,7 @@ use crate::commands::examples::Examples;
 use crate::console::Console;
 use crate::exit::{Exit, Failure, Outcome};
 use crate::files;
-use crate::inputs::STDIN;
+use crate::inputs::{STDIN, identity};
 use crate::process::guard;
 use crate::process::journal::{self, Note};
 use crate::progress::Progress;
@@ -25,7 +25,7 @@ use glisten_verify::shader_test::{self, TestBackend, TestResult};
 use glisten_verify::unit_test::{UnitTest, has_tests, tests};
 use glisten_verify::verify::as_compiled;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -107,6 +107,7 @@ const MOST_FOLDERS: u32 = 64;
 /// Runs the command.
 pub(crate) fn run(args: &TestArgs, console: &Console) -> Outcome {
     let (mut files, mut unread, mut exit) = (Vec::new(), Vec::new(), Exit::Ok);
+    let mut seen = BTreeSet::new();
     for path in &args.paths {
         match std::fs::metadata(path) {
             // The others are run all the same.
@@ -117,6 +118,8 @@ pub(crate) fn run(args: &TestArgs, console: &Console) -> Outcome {
             _ => collect(path, &mut files, &mut unread, 0)?,
         }
     }
+    // A file that is named twice counts once.
+    files.retain(|path| seen.insert(identity(path)));
     exit = unread.into_iter().map(|failure| console.tell(failure)).fold(exit, Exit::max);
     if files.is_empty() && exit > Exit::Ok {
         return Ok(exit);
@@ -310,6 +313,8 @@ fn collect(path: &Path, found: &mut Vec<PathBuf>, unread: &mut Vec<Failure>, dep
         .map_err(unreadable)?;
     entries.sort();
     for entry in entries {
+        // `./a.shader_test` is `a.shader_test`, as in all commands.
+        let entry = entry.strip_prefix(".").map(Path::to_owned).unwrap_or(entry);
         let is_test = entry.extension().is_some_and(|extension| extension == EXTENSION) && entry.is_file();
         // A link to a parent folder would make the search endless.
         let is_folder = entry.is_dir() && !entry.is_symlink() && depth < MOST_FOLDERS;

@@ -106,6 +106,12 @@ impl Swizzle {
     pub fn as_slice(&self) -> &[u8] {
         self.components.get(..usize::from(self.len)).unwrap_or(&[])
     }
+
+    /// Whether a component is named twice, so that nothing can be assigned to it.
+    pub(crate) fn has_repeats(&self) -> bool {
+        let all = self.as_slice();
+        all.iter().enumerate().any(|(index, component)| all.iter().take(index).any(|other| other == component))
+    }
 }
 
 /// The normal forms of constructors (§5.4). Scalar conversions are separate [`ExprKind::Convert`]s in the arguments.

@@ -5,7 +5,7 @@
 
 use crate::domain::{Domain, Number, rules};
 use glisten_scene::picture::Interval;
-use glisten_scene::{BlendFactor, Compare, Format, State};
+use glisten_scene::{Blend, BlendFactor, Compare, Format, State};
 use half::f16;
 
 /// The result of testing a fragment.
@@ -46,15 +46,15 @@ pub(super) fn depth_test<D: Domain>(slot: &mut D::Float, z: D::Float, state: &St
 pub(super) fn stored<D: Domain>(
     color: [D::Float; 4],
     old: [D::Float; 4],
-    blend: Option<(BlendFactor, BlendFactor)>,
+    blend: Option<Blend>,
     format: Format,
     test: Test,
 ) -> [D::Float; 4] {
     let color = match blend {
-        Some(factors) => {
+        Some(blend) => {
             let in_bytes = D::HAS_INTERVALS && format == Format::Rgba8Unorm;
             let round = if in_bytes { in_steps::<D> } else { |value| value };
-            blended::<D>(factors, clamped::<D>(color, format).map(round), old, round)
+            blended::<D>(blend, clamped::<D>(color, format).map(round), old, round)
         }
         None => color,
     };
@@ -146,13 +146,14 @@ fn in_steps<D: Domain>(value: D::Float) -> D::Float {
 
 /// `source * S + destination * D` (§4.1.7, tables 4.1 and 4.2), with a rounding of factors and products.
 fn blended<D: Domain>(
-    (source_factor, destination_factor): (BlendFactor, BlendFactor),
+    blend: Blend,
     source: [D::Float; 4],
     destination: [D::Float; 4],
     round: impl Fn(D::Float) -> D::Float,
 ) -> [D::Float; 4] {
-    let by = |name: BlendFactor| factor::<D>(name, source, destination).map(&round);
-    let (s, d) = (by(source_factor), by(destination_factor));
+    let constant = blend.constant.map(|channel| D::Float::from_f64(f64::from(channel)));
+    let by = |name: BlendFactor| factor::<D>(name, source, destination, constant).map(&round);
+    let (s, d) = (by(blend.source), by(blend.destination));
     std::array::from_fn(|i| {
         let part = |weight: D::Float, value: D::Float, name: BlendFactor| match name {
             // A factor that is not computed yields 0, even with infinity.
@@ -160,15 +161,21 @@ fn blended<D: Domain>(
             BlendFactor::One => value,
             _ => round(weight.mul(value)),
         };
-        part(s[i], source[i], source_factor).add(part(d[i], destination[i], destination_factor))
+        part(s[i], source[i], blend.source).add(part(d[i], destination[i], blend.destination))
     })
 }
 
-fn factor<D: Domain>(name: BlendFactor, source: [D::Float; 4], destination: [D::Float; 4]) -> [D::Float; 4] {
+fn factor<D: Domain>(
+    name: BlendFactor,
+    source: [D::Float; 4],
+    destination: [D::Float; 4],
+    constant: [D::Float; 4],
+) -> [D::Float; 4] {
     let one = D::Float::from_f64(1.0);
     let rest = |value: D::Float| one.sub(value);
     let [_, _, _, source_alpha] = source;
     let [_, _, _, destination_alpha] = destination;
+    let [_, _, _, constant_alpha] = constant;
     match name {
         BlendFactor::Zero => [D::Float::default(); 4],
         BlendFactor::One => [one; 4],
@@ -184,6 +191,10 @@ fn factor<D: Domain>(name: BlendFactor, source: [D::Float; 4], destination: [D::
             let least = source_alpha.min(rest(destination_alpha));
             [least, least, least, one]
         }
+        BlendFactor::ConstantColor => constant,
+        BlendFactor::OneMinusConstantColor => constant.map(rest),
+        BlendFactor::ConstantAlpha => [constant_alpha; 4],
+        BlendFactor::OneMinusConstantAlpha => [rest(constant_alpha); 4],
     }
 }
 

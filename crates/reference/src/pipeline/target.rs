@@ -14,7 +14,7 @@ use crate::domain::{Domain, Number};
 use crate::exec::{LANES, Mask};
 use crate::raster::Bounds;
 use glisten_scene::picture::Interval;
-use glisten_scene::{BlendFactor, Format, Framebuffer, State};
+use glisten_scene::{Blend, Format, Framebuffer, State};
 use smallvec::SmallVec;
 
 /// The framebuffer, divided into bins.
@@ -406,7 +406,7 @@ impl<D: Domain> Bin<'_, D> {
         places: &[u32; LANES],
         attachment: usize,
         color: impl Fn(usize) -> [D::Float; 4],
-        blend: Option<(BlendFactor, BlendFactor)>,
+        blend: Option<Blend>,
         tests: Tests,
     ) {
         let format = self.format;
@@ -438,7 +438,7 @@ impl<D: Domain> Bin<'_, D> {
         places: &[u32; LANES],
         attachment: usize,
         color: impl Fn(usize) -> [D::Float; 4],
-        blend: Option<(BlendFactor, BlendFactor)>,
+        blend: Option<Blend>,
         tests: Tests,
     ) {
         let (format, count) = (self.format, self.attachments.len());

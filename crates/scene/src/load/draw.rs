@@ -14,7 +14,9 @@ use super::uniforms::{Context, load_uniforms};
 use super::{Loader, ProgramKey, Surroundings, library_file};
 use crate::dynamic::is_known;
 use crate::fixed::{FixedFunction, OtherStage, other_stage, uses_fixed_state};
-use crate::model::{AttributeData, BlendFactor, Compare, Cull, Draw, FixedDraw, Format, Framebuffer, Primitive, State};
+use crate::model::{
+    AttributeData, Blend, BlendFactor, Compare, Cull, Draw, FixedDraw, Format, Framebuffer, Primitive, State,
+};
 use crate::tables::{Node, NumberValue, Reader, report_unknown_name};
 use glisten_front::diagnostic::codes::scenes::{
     OUTPUT_WITHOUT_ATTACHMENT, SCENE_CANNOT_DRAW, SCENE_WRONG_SIZE, SCENE_WRONG_TYPE, SCENE_WRONG_VALUE,
@@ -57,6 +59,7 @@ const KEYS: &[&str] = &[
     "depth_write",
     "depth_func",
     "blend",
+    "blend_color",
     "mesh",
     "camera",
     "transform",
@@ -189,14 +192,37 @@ fn load_state(reader: &mut Reader, table: &DeTable<'_>) -> State {
     }
 }
 
-fn load_blend(reader: &mut Reader, table: &DeTable<'_>) -> Option<(BlendFactor, BlendFactor)> {
+/// How colors are blended, with the constant color.
+fn load_blend(reader: &mut Reader, table: &DeTable<'_>) -> Option<Blend> {
+    let blend = load_factors(reader, table);
+    let constant = reader.reals(table, "blend_color", [0.0; 4]).map(|channel| channel as f32);
+    let factors = blend.iter().flat_map(|blend| [blend.source, blend.destination]).collect::<Vec<_>>();
+    let by_color = factors.iter().any(|factor| factor.reads_constant_color());
+    let by_alpha = factors.iter().any(|factor| factor.reads_constant_alpha());
+    if let Some(node) = table.get("blend_color") {
+        let span = reader.span_of(node);
+        if !constant.iter().all(|channel| (0.0..=1.0).contains(channel)) {
+            reader.wrong_value(span, "`blend_color` has numbers from 0 to 1", "OpenGL clamps the others");
+        } else if !by_color && !by_alpha {
+            reader.wrong_value(span, "no factor of `blend` reads `blend_color`", "it changes nothing");
+        }
+    }
+    if let (Some(node), true, true) = (table.get("blend"), by_color, by_alpha) {
+        let span = reader.span_of(node);
+        let message = "no draw has factors of the constant color and of the constant alpha";
+        reader.wrong_value(span, message, "WebGL and WebGPU have one of the two");
+    }
+    blend.map(|blend| Blend { constant, ..blend })
+}
+
+fn load_factors(reader: &mut Reader, table: &DeTable<'_>) -> Option<Blend> {
     let node = table.get("blend")?;
     let Some(pair) = node.get_ref().as_array() else {
         return reader.choice(node, "blend", BLENDS).flatten();
     };
     let mut factors = pair.iter().map(|factor| reader.choice(factor, "blend", BlendFactor::NAMES));
     match (factors.next(), factors.next(), factors.next()) {
-        (Some(source), Some(destination), None) => source.zip(destination),
+        (Some(source), Some(destination), None) => Some(Blend::new(source?, destination?)),
         _ => {
             drop(factors);
             reader.wrong_type(node, "blend", "a name or a pair of factors");

@@ -344,7 +344,8 @@ impl Loader<'_> {
         let bytes = match self.files.read(self.path) {
             Ok(bytes) => bytes,
             Err(error) => {
-                self.unreadable(self.path, Span::default(), &error);
+                let place = self.without_text();
+                self.unreadable(self.path, place, &error);
                 return None;
             }
         };
@@ -363,9 +364,14 @@ impl Loader<'_> {
 
     fn not_a_scene(&mut self, why: &str) {
         let message = format!("`{}` is not a scene: {why}", self.path);
-        // An empty text has the file's name.
+        let place = self.without_text();
+        self.reader.report(Diagnostic::new(&SCENE_SYNTAX, place, message));
+    }
+
+    /// The place of a scene whose text is not there: an empty text has the file's name.
+    fn without_text(&mut self) -> Span {
         let base = self.sources.add(self.path, "").map_or(0, |file| self.sources.file(file).base());
-        self.reader.report(Diagnostic::new(&SCENE_SYNTAX, Span::new(base, base), message));
+        Span::new(base, base)
     }
 
     fn draw_tables<'t, 'i>(&mut self, table: &'t DeTable<'i>) -> Vec<&'t Node<'i>> {

@@ -1,6 +1,6 @@
 //! The names that scene files use for fixed-function state, one row per name.
 
-use crate::model::{BlendFactor, Cull, Filter, Format, Primitive};
+use crate::model::{Blend, BlendFactor, Cull, Filter, Format, Primitive};
 use glisten_front::hir::{SamplerDim, Scalar};
 
 pub(super) const FORMATS: &[(&str, Format)] = &[
@@ -33,11 +33,11 @@ pub(super) const FRONT_FACES: &[(&str, bool)] = &[("ccw", true), ("cw", false)];
 /// Whether the last vertex is the provoking one.
 pub(super) const PROVOKING: &[(&str, bool)] = &[("last", true), ("first", false)];
 
-pub(super) const BLENDS: &[(&str, Option<(BlendFactor, BlendFactor)>)] = &[
+pub(super) const BLENDS: &[(&str, Option<Blend>)] = &[
     ("none", None),
-    ("alpha", Some((BlendFactor::SrcAlpha, BlendFactor::OneMinusSrcAlpha))),
-    ("add", Some((BlendFactor::One, BlendFactor::One))),
-    ("multiply", Some((BlendFactor::DstColor, BlendFactor::Zero))),
+    ("alpha", Some(Blend::new(BlendFactor::SrcAlpha, BlendFactor::OneMinusSrcAlpha))),
+    ("add", Some(Blend::new(BlendFactor::One, BlendFactor::One))),
+    ("multiply", Some(Blend::new(BlendFactor::DstColor, BlendFactor::Zero))),
 ];
 
 pub(super) const FILTERS: &[(&str, Filter)] = &[

@@ -368,6 +368,10 @@ fn check_state(
     let fetched = kind.dim == SamplerDim::Multisample;
     let (key, message) = if fetched && filter != Filter::Nearest {
         ("filter", format!("`{name}` is a {}, whose samples cannot be filtered", kind.name()))
+    } else if kind.dim == SamplerDim::Buffer && filter != Filter::Nearest {
+        ("filter", format!("`{name}` is a {}, which cannot be filtered", kind.name()))
+    } else if kind.dim == SamplerDim::Rect && filter.uses_levels() {
+        ("filter", format!("`{name}` is a {}, which has no mipmaps: its filter is `nearest` or `linear`", kind.name()))
     } else if integer && !matches!(filter, Filter::Nearest | Filter::NearestMipmapNearest) {
         ("filter", format!("`{name}` holds integers, of which OpenGL reads the nearest one alone"))
     } else if kind.dim == SamplerDim::Rect && wrap != Wrap::ClampToEdge {

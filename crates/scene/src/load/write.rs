@@ -5,8 +5,8 @@
 
 use super::names::{BLENDS, CULLS, FILTERS, FORMATS, FRONT_FACES, PRIMITIVES, PROVOKING, TEXTURE_KINDS};
 use crate::model::{
-    AttributeData, AttributeValues, BlendFactor, Compare, Cull, Draw, Filter, Format, Scene, State, Texels, Texture,
-    TextureLevel, Wrap,
+    AttributeData, AttributeValues, Blend, BlendFactor, Compare, Cull, Draw, Filter, Format, Scene, State, Texels,
+    Texture, TextureLevel, Wrap,
 };
 use crate::picture::{Tone, Transfer};
 use crate::toml_string::toml_string;
@@ -134,7 +134,7 @@ fn state(text: &mut String, state: &State) {
     name("front_face", !state.front_ccw, name_of(FRONT_FACES, state.front_ccw));
     name("provoking", !state.provoking_last, name_of(PROVOKING, state.provoking_last));
     name("depth_func", state.depth_func != Compare::Less, name_of(Compare::NAMES, state.depth_func));
-    if let Some((source, destination)) = state.blend {
+    if let Some(Blend { source, destination, constant }) = state.blend {
         let named = BLENDS.iter().find(|(_, factors)| *factors == state.blend);
         let value = match named {
             Some((name, _)) => toml_string(name),
@@ -145,6 +145,9 @@ fn state(text: &mut String, state: &State) {
             ),
         };
         let _ = writeln!(text, "blend = {value}");
+        if constant != [0.0; 4] {
+            let _ = writeln!(text, "blend_color = {constant:?}");
+        }
     }
     if state.clip_distances > 0 {
         let _ = writeln!(text, "clip_distances = {}", state.clip_distances);

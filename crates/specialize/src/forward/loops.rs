@@ -182,6 +182,7 @@ impl Forward<'_> {
         let exprs: Vec<ExprId> =
             parts.condition.map(|condition| condition.expr).into_iter().chain(parts.step).collect();
         let counter = self.counter(parts);
+        let tallies = self.tallies(parts);
         let assigned = self.effects.assigned(self.shader, parts.body, &exprs);
         self.forget_assigned(&assigned);
         if let Some((local, low)) = counter {
@@ -200,6 +201,14 @@ impl Forward<'_> {
         self.forks -= 1;
         self.targets.pop();
         self.store.live = !self.failed;
+        for (local, count) in tallies {
+            let key = self.local_key(local);
+            self.store.change(key, |cell| {
+                if let Some(fact) = cell.first_mut() {
+                    *fact = Fact::bound(ScalarValue::Int(count));
+                }
+            });
+        }
         out.push(Self::statement(StmtKind::Loop { kind: parts.kind, condition, step, body }, parts.span));
     }
 

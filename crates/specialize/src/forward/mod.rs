@@ -19,6 +19,7 @@ mod refine;
 mod selections;
 mod statements;
 mod store;
+mod tallies;
 
 pub(crate) use effects::Effects;
 pub(crate) use reasons::{Reason, Reasons};

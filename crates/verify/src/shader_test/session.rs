@@ -13,7 +13,7 @@ use super::uniforms::Uniforms;
 use super::vertex_data::{self, VertexData};
 use super::words::{Line, Words};
 use super::{TestBackend, TestResult, fail, introspection, probe, program, require, skip};
-use crate::scene::{BlendFactor, Compare, Cull, Draw, Format, Framebuffer, Primitive, Scene, State};
+use crate::scene::{Blend, BlendFactor, Compare, Cull, Draw, Format, Framebuffer, Primitive, Scene, State};
 use glisten_front::compiler::Compiler;
 use glisten_front::hir::{Scalar, Stage, Type};
 use glisten_front::link::{FixedState, Program};
@@ -56,7 +56,7 @@ struct TestSession {
     /// The enabled GL_CLIP_DISTANCEi, one bit each.
     clip: u32,
     blending: bool,
-    factors: (BlendFactor, BlendFactor),
+    factors: Blend,
     element: u32,
     framebuffer: Framebuffer,
     /// The color of the next clear.
@@ -95,7 +95,7 @@ impl TestSession {
             state,
             clip: 0,
             blending: false,
-            factors: (BlendFactor::One, BlendFactor::Zero),
+            factors: Blend::new(BlendFactor::One, BlendFactor::Zero),
             element: 0,
             framebuffer,
             clear_color: [0.0; 4],
@@ -145,7 +145,7 @@ impl TestSession {
                 Ok(())
             }
             "blend" if words.eat("func") => {
-                self.factors = (factor(words)?, factor(words)?);
+                self.factors = Blend::new(factor(words)?, factor(words)?);
                 Ok(())
             }
             "depthfunc" => {

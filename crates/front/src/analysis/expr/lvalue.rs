@@ -3,7 +3,7 @@
 use super::super::context::Analyzer;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::types;
-use crate::hir::{ExprId, ExprKind, LocalKind, ParamMode, Storage, Swizzle, VarRef};
+use crate::hir::{ExprId, ExprKind, LocalKind, ParamMode, Storage, VarRef};
 use crate::source::Span;
 
 /// Why an l-value is needed.
@@ -64,7 +64,7 @@ impl Analyzer<'_> {
                 ExprKind::Error => return None,
                 ExprKind::Member(inner, _) | ExprKind::Index(inner, _) => at = *inner,
                 ExprKind::Swizzle(inner, swizzle) => {
-                    if repeats(swizzle) {
+                    if swizzle.has_repeats() {
                         return refuse("a component is named twice");
                     }
                     at = *inner;
@@ -110,13 +110,4 @@ fn is_written(text: &str) -> bool {
     text.starts_with(|first: char| first.is_ascii_digit() || first == '.')
         || text.starts_with("true")
         || text.starts_with("false")
-}
-
-/// Whether a swizzle has a component twice.
-fn repeats(swizzle: &Swizzle) -> bool {
-    let components = swizzle.as_slice();
-    components
-        .iter()
-        .enumerate()
-        .any(|(index, component)| components.iter().take(index).any(|other| other == component))
 }

@@ -1,6 +1,6 @@
 //! Codes of the phase `preprocess` (`E01xx`): characters, comments, directives and macros (GLSL 1.50 §3.1 to §3.4).
 
-use super::Example::{Fragment, None, Text, Vertex};
+use super::Example::{Fragment, Text, Vertex};
 
 codes! {
     ILLEGAL_CHARACTER = "E0103" "illegal-character" Error "GLSL 1.50 §3.1"
@@ -102,10 +102,12 @@ codes! {
     EXPANSION_TOO_LARGE = "E0129" "macro-expansion-too-large" Error "GLSL 1.50 §3.3"
         "The macros of a source may produce half a million tokens, and two more for each of its bytes. If one macro \
          uses another twice, which uses another twice and so on, some twenty of them exceed every limit."
-        bad None, good None;
+        bad Text("#define A0 c += 1.0; c += 1.0;\n#define A1 A0 A0\n#define A2 A1 A1   // and so on, up to A20\nvoid main() { A20 }"),
+        good Fragment("out vec4 c; void main() { c = vec4(0.0); for (int i = 0; i < 1000; i++) { c += 1.0; } }");
     EXPANSION_TOO_DEEP = "E0130" "macro-expansion-too-deep" Error "GLSL 1.50 §3.3"
         "Macro uses may nest 4,096 levels deep, and 64 levels deep in each other's arguments."
-        bad None, good None;
+        bad Text("#define A0 1.0\n#define A1 (A0)\n#define A2 (A1)   // and so on, up to A4097\nfloat a = A4097;"),
+        good Fragment("#define A0 1.0\n#define A1 (A0)\nout vec4 c; void main() { c = vec4(A1); }");
     MISPLACED_EXTENSION = "E0131" "misplaced-extension" Error "GLSL ES 3.00 §3.5"
         "From ES 3.00 on, `#extension` lines come before any token that does not belong to the preprocessor. In other versions this is \
          the warning W0104, since their drivers accept it."

@@ -1,6 +1,6 @@
 //! Codes for statements and functions (`E05xx`).
 
-use super::Example::{Fragment, None, Vertex};
+use super::Example::{Fragment, Text, Vertex};
 
 codes! {
     STRAY_JUMP = "E0501" "stray-jump" Error "GLSL 1.50 §6.4"
@@ -68,5 +68,6 @@ codes! {
         good Fragment("float f(float a) { return a; } int f(int a) { return a; } out vec4 c; void main() { c = vec4(f(0.5), f(1), 0.0, 1.0); }");
     TOO_MANY_OVERLOADS = "E0513" "too-many-overloads" Error ""
         "A name may have at most 1,024 overloads."
-        bad None, good None;
+        bad Text("float f(float a[1]) { return a[0]; }\nfloat f(float a[2]) { return a[0]; }   // and so on, 1,025 times"),
+        good Fragment("float f(float a[1]) { return a[0]; }\nfloat f(float a[2]) { return a[0]; }\nvoid main() {}");
 }

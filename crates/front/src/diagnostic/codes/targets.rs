@@ -1,6 +1,6 @@
 //! Codes for what a target cannot represent, found during lowering and emission (`E08xx`).
 
-use super::Example::{Geometry, None, Text, Vertex};
+use super::Example::{Geometry, Text, Vertex};
 
 codes! {
     STAGE_NOT_IN_TARGET = "E0801" "stage-not-in-target" Error ""
@@ -17,7 +17,8 @@ codes! {
         "Statements in the emitted text nest deeper than parsers of the target language accept: Tint accepts 127 \
          levels of WGSL, where an `if` or a loop takes two and a `switch` three. Move the inner statements into a \
          function of their own, or compile for SPIR-V, which nests as deep as glisten's parser does (256)."
-        bad None, good None;
+        bad Text("if (x > 1.0) { if (x > 2.0) { if (x > 3.0) {   // and so on, 64 times"),
+        good Text("if (x > 1.0) { inner(x); }   // the rest is in a function of its own");
     POINT_SIZE_DROPPED = "W0801" "point-size-dropped" Note "GLSL 1.50 §7.1"
         "`gl_PointSize` has an effect only if the program enables PROGRAM_POINT_SIZE. Without \
          `--program-point-size` the write is dropped and points are one pixel wide, as in OpenGL when it is \

@@ -73,6 +73,7 @@ mod unused_varying;
 mod unwritten_out_parameter;
 mod unwritten_output;
 mod unwritten_varying;
+mod value_dropped;
 mod vertex_work;
 mod webgpu_limits;
 mod wgsl_reserved_name;
@@ -156,4 +157,5 @@ pub(super) static RULES: &[Rule] = &[
     Rule { code: &lints::UNUSED_ALLOW, check: unused_allow::check },
     Rule { code: &lints::REVERSED_BOUNDS, check: reversed_bounds::check },
     Rule { code: &lints::BEYOND_WEBGL, check: beyond_webgl::check },
+    Rule { code: &lints::VALUE_DROPPED, check: value_dropped::check },
 ];

@@ -179,6 +179,7 @@ const drawByWebGpu = async (gpu, calls, bytes) => {
     pass.setStencilReference(1);
     for (const draw of draws) {
       pass.setPipeline(draw.pipeline);
+      if (draw.blendConstant) pass.setBlendConstant(draw.blendConstant);
       draw.groups.forEach((group, index) => pass.setBindGroup(index, group));
       draw.vertices.forEach((vertices, index) => pass.setVertexBuffer(index, vertices));
       if (draw.order) {

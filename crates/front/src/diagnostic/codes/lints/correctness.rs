@@ -125,6 +125,16 @@ lints! {
             "in float x; out vec4 c; void main() { c = vec4(0.0); if (x > 0.5); { c = vec4(1.0); } }"),
         good Fragment(
             "in float x; out vec4 c; void main() { c = vec4(0.0); if (x > 0.5) { c = vec4(1.0); } }");
+    VALUE_DROPPED = "L0077" "value-dropped" Warning Correctness Unsafe "0.1.0" "GLSL 1.50 §5.9"
+        "A statement computes a value that nothing takes, such as `a == b;` for `a = b;` and `max(a, b);`; or the comma \
+         operator drops one, such as the 5 of `a * 0,5`."
+        why
+        "Calls of the shader's functions are left out, and what a macro writes. So is a variable alone that nothing else \
+         names, or that is in parentheses: people write it to silence who reports it as unused."
+        bad Fragment(
+            "in vec4 p; out vec4 c; void main() { c = p; c.y == 1.0; }"),
+        good Fragment(
+            "in vec4 p; out vec4 c; void main() { c = p; c.y = 1.0; }");
     COMPARISON_CHAIN = "L0021" "comparison-chain" Warning Correctness No "0.1.0" "GLSL 1.50 §5.9"
         "`a == b == c` compares the truth of `a == b` with `c`, not three values with each other."
         why
