@@ -380,6 +380,17 @@ fn a_wrong_header_is_told_at_its_place() {
     assert_eq!((found[0]["file"].as_str(), found[0]["line"].as_u64()), (Some("a.fs"), Some(2)));
 }
 
+/// The names that the header would declare are not known then; functions and types are.
+#[test]
+fn names_are_no_errors_where_a_header_cannot_be_read() {
+    let text = "/*{\"INPUTS\": [{\"NAME\": \"speed\", \"TYPE\": \"float\"},]}*/\n\
+                void main() { gl_FragColor = vec4(speed * TIME, spede, f(1.0), 1.0); }\n";
+    let folder = Folder::new(&[("a.fs", text.as_bytes())]);
+    let (found, exit) = folder.lint(&["a.fs", "--engine", "isf"]);
+    assert_eq!((codes(&found), exit), (vec!["E0016", "E0304"], 1), "{found:?}");
+    assert!(found[0].to_string().contains("names that nothing declares are no errors here"), "{}", found[0]);
+}
+
 /// The profile chooses the version, and not the author, who writes what the format prescribes.
 #[test]
 fn a_version_that_an_engine_adds_makes_no_word_old() {

@@ -269,3 +269,19 @@ fn a_lone_shader_that_others_must_complete_is_no_error_and_no_program() {
     assert_eq!(compilation.diagnostics.len(), 1);
     assert!(compilation.program.is_none());
 }
+
+#[test]
+fn blocks_at_two_locations_are_told_by_them() {
+    let text = |place: u32, word: &str, rest: &str| {
+        format!("#version 460\nlayout(location = {place}) {word} VS_OUT {{ vec3 world; }} b;\n{rest}")
+    };
+    let source = |stage: Stage, text: String| Source { name: format!("a.{}", stage.name()), text: text.into(), stage };
+    let vertex = text(0, "out", "void main() { b.world = vec3(0.0); gl_Position = vec4(0.0); }\n");
+    let fragment = text(1, "in", "out vec4 c; void main() { c = vec4(b.world, 1.0); }\n");
+    let sources = [source(Stage::Vertex, vertex), source(Stage::Fragment, fragment)];
+    let done = Compiler::new(Options::default()).compile(&sources);
+    let found = done.diagnostics.iter().find(|found| found.code.id == "E0702").expect("they do not match");
+    let labels: Vec<&str> = found.secondary.iter().map(|label| &*label.message).collect();
+    assert_eq!(labels, ["the vertex stage has `VS_OUT` at location 0, not 1"]);
+    assert_eq!(found.help.as_deref(), Some("write `layout(location = 0)` here, or leave both out"));
+}

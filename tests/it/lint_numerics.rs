@@ -75,3 +75,33 @@ fn what_is_proven_guarded_or_unknown_is_not() {
         assert_eq!(told(body), [] as [&str; 0], "{body}");
     }
 }
+
+#[test]
+fn a_float_counter_is_told_where_rounding_decides() {
+    for (body, is_told) in [
+        ("for (float i = 0.0; i < 1.0; i += 0.1) r += i;", true),
+        ("for (float i = 1.0; i > 0.0; i -= 0.2) r += i;", true),
+        ("for (float i = 0.0; i < k; i += 0.15) r += i;", true),
+        ("for (float i = 0.0; i < 100000.0; i += 0.15) r += i;", true),
+        ("for (float i = 0.0; i < 1.0; i += 0.15) r += i;", false),
+        ("for (float i = 1.54; 0.0 < i; i -= 0.2) r += i;", false),
+    ] {
+        assert_eq!(told(body).contains(&"float-loop-counter"), is_told, "{body}");
+    }
+}
+
+/// The value of a global that nothing assigns to is that of its declaration.
+#[test]
+fn a_global_that_nothing_assigns_to_is_constant() {
+    let found = |assignment: &str| {
+        let text = format!(
+            "#version 150\nint kind = 5; out vec4 c; in vec2 p;\nvoid main() {{ {assignment} float k = cos(3.14159 / float(kind)); \
+             c = vec4(sqrt(0.75 - k * k), p, 1.0); }}\n"
+        );
+        let done = compile_text("a.frag", &text, Stage::Fragment);
+        let program = done.program.expect("it compiles");
+        lint::check(&program, &done.sources).iter().any(|found| found.code.name == "sqrt-maybe-negative")
+    };
+    assert!(!found(""));
+    assert!(found("kind = int(p.x);"));
+}

@@ -205,3 +205,36 @@ fn a_shader_whose_name_does_not_tell_its_stage_gets_a_way_out() {
     let text = std::fs::read_to_string(folder.path("new/which.glsl")).expect("written");
     assert!(text.starts_with("#version 450"), "{text}");
 }
+
+/// The stage of the command line counts for what a search finds, too.
+#[test]
+fn a_stage_that_is_given_counts_for_the_files_of_a_folder() {
+    let folder = Folder::new(&[("p/which.glsl", b"void main() { gl_FragColor = vec4(nope); }\n"), ("p/a.vert", LATER)]);
+    let (found, scope, exit) = lint(&folder, &["p", "--stage", "fragment"]);
+    assert_eq!((codes(&found), exit), (vec!["E0301"], 1), "{found:#?}");
+    let files: Vec<&str> = not_checked(&scope).iter().map(|(file, _)| *file).collect();
+    assert_eq!(files, ["p/a.vert"], "{scope}");
+}
+
+#[test]
+fn macros_that_make_shaders_are_named_and_folders_of_strings_are_not_empty() {
+    let script =
+        b"const a = `#version 300 es\nprecision highp float;\nout vec4 c;\nvoid main() { c = vec4(nope); }`;\n";
+    let folder = Folder::new(&[("a.js", &script[..]), ("s.h", b"#define GLSL(shader) \"#version 410\\n\" #shader\n")]);
+    let (found, scope, _) = lint(&folder, &["--embedded", "."]);
+    assert_eq!(codes(&found), ["E0301"], "{found:#?}");
+    let rows = not_checked(&scope);
+    assert!(matches!(rows.as_slice(), [(file, why)] if file.ends_with("s.h") && why.contains("by `#`")), "{rows:?}");
+    assert!(!err(&folder.run(&["lint", "--embedded", "."])).contains("no shader was found"));
+}
+
+#[test]
+fn stages_that_tessellation_keeps_apart_are_told_so() {
+    let main = b"#version 150\nvoid main() {}\n";
+    let folder = Folder::new(&[("p/a.vert", &main[..]), ("p/a.frag", main), ("p/a.tesc", main), ("p/a.tese", main)]);
+    let told = err(&folder.run(&["compile", "p", "-o", "out"]));
+    assert!(
+        told.contains("would both write") && told.contains("tessellation stages, which glisten does not read"),
+        "{told}"
+    );
+}

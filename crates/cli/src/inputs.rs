@@ -264,7 +264,10 @@ pub(crate) fn collect(
     let mut named: Vec<PathBuf> = Vec::new();
     for file in files {
         if scans && file.is_dir() {
-            let search = search::folder(file, &engines)?;
+            let mut search = search::folder(file, &engines)?;
+            if args.stage.is_some() {
+                search.take_without_stage();
+            }
             if search.found.is_empty() {
                 inputs.empty_folders.push(file.to_string_lossy().into_owned());
             }

@@ -211,6 +211,7 @@ fn because(why: Why) -> String {
         Why::NoMain => "it has no `main`, and no file that is checked includes it".to_owned(),
         Why::Assembly => "it is in the assembly language of ARB_vertex_program".to_owned(),
         Why::NoStage => WITHOUT_STAGE.to_owned(),
+        Why::Macros => "it has macros that make strings of shaders by `#`, which are not read".to_owned(),
         Why::Stage(stage) => format!("{UNREAD} {stage} shaders"),
     }
 }

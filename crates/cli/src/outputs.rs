@@ -20,6 +20,7 @@ use glisten_front::diagnostic::Diagnostic;
 use glisten_front::hir::Stage;
 use glisten_front::link::Program;
 use glisten_front::source::{SourceMap, Span};
+use glisten_sources::stages;
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -165,7 +166,7 @@ impl OutputPlan {
                         files_of(group),
                         path.display()
                     );
-                    return Err(Failure::usage(message).help("compile them into different folders"));
+                    return Err(Failure::usage(message).help(apart(group)));
                 }
             }
         }
@@ -307,6 +308,18 @@ pub(crate) fn files_of_stages(
         }
     }
     files
+}
+
+/// How two programs that would write one file are kept apart. Stages are no program where others stand between them that are not read.
+fn apart(group: &Group) -> &'static str {
+    let path = group.inputs.first().and_then(|input| input.path.as_deref());
+    let folder = path.and_then(Path::parent).unwrap_or(Path::new(""));
+    if stages::is_tessellated(folder, &group.name) {
+        "their program has tessellation stages, which glisten does not read, so its other stages are not linked: compile each of them \
+         alone, into a folder of its own"
+    } else {
+        "compile them into different folders"
+    }
 }
 
 fn files_of(group: &Group) -> String {

@@ -33,6 +33,8 @@ pub(crate) enum Why {
     Assembly,
     /// It has a `main`, and neither its name nor its text tells its stage.
     NoStage,
+    /// Macros of its language make shaders of their arguments.
+    Macros,
     /// Its stage is none that glisten reads.
     Stage(&'static str),
 }
@@ -46,6 +48,15 @@ pub(crate) struct Search {
     pub(crate) left: Vec<Left>,
     /// The folders in it that cannot be read.
     pub(crate) unreadable: Vec<PathBuf>,
+}
+
+impl Search {
+    /// Takes the files whose names tell no stage, because the command line tells it.
+    pub(crate) fn take_without_stage(&mut self) {
+        let is_taken = |left: &mut Left| left.why == Why::NoStage;
+        self.found.extend(self.left.extract_if(.., is_taken).map(|left| left.path));
+        self.found.sort();
+    }
 }
 
 /// The files and folders that a walk through a folder finds.

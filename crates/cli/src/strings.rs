@@ -9,7 +9,7 @@ use crate::batch::Batch;
 use crate::exit::Failure;
 use crate::files;
 use crate::inputs::{self, Group, Input, Inputs, PartOf};
-use crate::search;
+use crate::search::{self, Left, Why};
 use glisten_front::compiler::Compiler;
 use glisten_front::source::SourceMap;
 use glisten_sources::Settings;
@@ -57,7 +57,12 @@ pub(crate) fn add(inputs: &mut Inputs, hosts: &[PathBuf], named: &[PathBuf]) -> 
     for path in all.into_iter().filter(|path| seen.insert(inputs::identity(path))) {
         let name = path.to_string_lossy();
         let found = match files::read_source(&name, Some(&path)) {
-            Ok(text) => inputs_in(&path, &text),
+            Ok(text) => {
+                if Host::of(&path) == Some(Host::C) && embedded::has_unread_macros(&text) {
+                    inputs.left.push(Left { path: path.clone(), why: Why::Macros });
+                }
+                inputs_in(&path, &text)
+            }
             // A file that a search found need not be a text.
             Err(_) if inputs.found.contains(&path) => Vec::new(),
             Err(error) => {
@@ -66,7 +71,10 @@ pub(crate) fn add(inputs: &mut Inputs, hosts: &[PathBuf], named: &[PathBuf]) -> 
             }
         };
         let groups = inputs::group(found);
-        inputs.empty_folders.retain(|folder| groups.is_empty() || !path.starts_with(folder));
+        if !groups.is_empty() && !inputs.empty_folders.is_empty() {
+            let own = inputs::identity(&path);
+            inputs.empty_folders.retain(|folder| !own.starts_with(inputs::identity(Path::new(folder))));
+        }
         inputs.groups.extend(groups);
     }
     Ok(())

@@ -217,3 +217,24 @@ fn overloads_are_limited() {
     assert!(compilation.diagnostics.iter().all(|found| found.code.id == "E0513"));
     assert_eq!(compilation.diagnostics.len(), 6);
 }
+
+/// A version or an extension that has a function in another stage alone is no remedy.
+#[test]
+fn a_function_of_other_stages_is_told_by_them() {
+    for (call, stages) in [("EndPrimitive();", "geometry"), ("float x = dFdxFine(1.0);", "fragment")] {
+        let done = compile(Stage::Vertex, &format!("void main() {{ {call} gl_Position = vec4(0.0); }}"));
+        let found = done.diagnostics.iter().find(|found| found.code.id == "E0308").expect("it is not there");
+        assert!(found.message.ends_with("does not exist in a vertex shader"), "{}", found.message);
+        assert_eq!(found.primary.message, format!("only in {stages} shaders"));
+        assert_eq!(found.help, None);
+    }
+}
+
+#[test]
+fn a_macro_without_its_arguments_is_known_as_one() {
+    let text = "#define SAT(x) clamp(x, 0.0, 1.0)\nout vec4 c; void main() { c = vec4(1.0) * SAT; }";
+    let done = compile(Stage::Fragment, text);
+    let found = done.diagnostics.iter().next().expect("it is no value");
+    assert_eq!(found.code.id, "E0301");
+    assert_eq!(found.help.as_deref(), Some("`SAT` is a macro with parameters: write `SAT(..)` with its arguments"));
+}

@@ -11,7 +11,7 @@ use preparation::Changed;
 pub use preparation::{Preparation, Prepared, Problem, SourceSettings};
 
 use crate::analysis::{analyze, analyze_with_notes, keep_decisive, keep_language, keep_understood, point_to_engine};
-use crate::diagnostic::codes::general::{BINARY_SOURCE, TOO_LARGE};
+use crate::diagnostic::codes::general::{BAD_HEADER, BINARY_SOURCE, TOO_LARGE};
 use crate::diagnostic::codes::{names, preprocess};
 use crate::diagnostic::{Area, Code, Diagnostic, Diagnostics, Levels};
 use crate::hir::{Origin, Stage, Types};
@@ -302,6 +302,7 @@ impl Compiler {
         shader.texts.push(whole_text(map, file, ast.version.span, edits, &defines));
         let is_complete = !keep_understood(&ast, &mut shader, types, map, diagnostics, first_error);
         forget_names_of_missing_includes(map, diagnostics, first_error);
+        forget_names_of_bad_headers(diagnostics, first_error);
         keep_language(diagnostics, map, first_error);
         keep_decisive(diagnostics, first_error, ast.late_version);
         point_to_engine(&shader, diagnostics, first_error);
@@ -361,9 +362,25 @@ fn report_problems(problems: &[Problem], file: FileId, map: &SourceMap, diagnost
     let base = map.file(file).base();
     for problem in problems {
         let span = Span::new(base + problem.range.start as u32, base + problem.range.end as u32);
-        let diagnostic = Diagnostic::new(problem.code, span, problem.message.clone());
+        let mut diagnostic = Diagnostic::new(problem.code, span, problem.message.clone());
+        if *problem.code == BAD_HEADER {
+            diagnostic = diagnostic.here("it may declare names, so names that nothing declares are no errors here");
+        }
         diagnostics.push(diagnostic.maybe_help(problem.help.clone()));
     }
+}
+
+/// Variables that nothing declares are no errors where an engine's header cannot be read, which may declare them: drops what was
+/// reported about them, from diagnostic `first` on.
+fn forget_names_of_bad_headers(diagnostics: &mut Diagnostics, first: usize) {
+    if !diagnostics.iter().skip(first).any(|found| *found.code == BAD_HEADER) {
+        return;
+    }
+    let mut index = 0;
+    diagnostics.retain_mut(|found| {
+        index += 1;
+        index <= first || *found.code != names::UNDECLARED
+    });
 }
 
 /// Names that nothing declares are no errors where an include is missing that may declare them: drops what was reported

@@ -151,6 +151,11 @@ fn no_partner(ctx: &mut Linker<'_>, producer: &Shader, consumer: &Shader, input:
             (Storage::Out, Some(there), None) if is_same_kind(other, input) => {
                 format!("at location {there}, and the input has none")
             }
+            // Blocks of one name and kind are apart by their locations alone.
+            (Storage::Out, Some(there), Some(here)) if other.block.is_some() && input.block.is_some() => {
+                diagnostic = diagnostic.help(format!("write `layout(location = {there})` here, or leave both out"));
+                format!("at location {there}, not {here}")
+            }
             _ => format!("as {}", describe_other(other)),
         };
         diagnostic = diagnostic.label(other.span, format!("the {stage} stage has `{}` {what}", other.match_name()));

@@ -34,6 +34,11 @@ pub(super) fn rate(place: &Place<'_>, root: ExprId) -> Rate {
                 match global.storage {
                     Storage::Const => Rate::Constant,
                     Storage::Uniform => Rate::Draw,
+                    // A variable that nothing assigns to keeps the value of its declaration.
+                    Storage::Private if !global.written && global.initializer.is_some() => {
+                        pending.extend(global.initializer);
+                        Rate::Constant
+                    }
                     _ => Rate::Invocation,
                 }
             }

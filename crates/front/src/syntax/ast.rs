@@ -63,6 +63,8 @@ pub struct Ast {
     pub preludes: Vec<FileId>,
     /// The macros without parameters that are defined at the end, for "did you mean".
     pub macros: Vec<std::sync::Arc<str>>,
+    /// The macros with parameters that are defined at the end.
+    pub macros_with_parameters: Vec<std::sync::Arc<str>>,
     /// For each name by its symbol, whether the tree depends on what macro it names.
     pub asked: Vec<bool>,
     /// Whether an engine makes outputs of `gl_FragColor` and `gl_FragData`.

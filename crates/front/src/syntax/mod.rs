@@ -78,6 +78,7 @@ pub fn parse(
     ast.unrolled = outcome.unrolled;
     ast.preludes = outcome.preludes;
     ast.macros = outcome.macros;
+    ast.macros_with_parameters = outcome.macros_with_parameters;
     ast.asked = outcome.asked;
     ast.mixes_outputs = options.completion.mixes_outputs;
     ast.replaced_samplers.clone_from(&options.completion.replaced_samplers);
@@ -100,6 +101,7 @@ fn empty_tree() -> Ast {
         unrolled: Vec::new(),
         preludes: Vec::new(),
         macros: Vec::new(),
+        macros_with_parameters: Vec::new(),
         asked: Vec::new(),
         mixes_outputs: false,
         replaced_samplers: Vec::new(),

@@ -14,11 +14,13 @@
 
 mod choose;
 pub mod doubt;
+mod macros;
 mod pair;
 mod scan;
 mod style;
 mod text;
 
+pub use macros::has_unread_macros;
 pub use style::styled;
 pub use text::Filling;
 

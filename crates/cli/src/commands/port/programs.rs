@@ -242,6 +242,10 @@ fn new_program(
             let because = first.map_or("the sources have errors".to_owned(), told);
             Ok(Err((Outcome::Refused, Some(because))))
         }
+        Err(refused @ Refused::Newer { target: glisten_upgrade::Target::Es300, .. }) => {
+            let help = "`glisten compile --target glsl --glsl-version 300es` translates such a program, to new text";
+            Ok(Err((Outcome::Refused, Some(format!("{refused}; {help}")))))
+        }
         Err(refused) => Ok(Err((Outcome::Refused, Some(refused.to_string())))),
     }
 }

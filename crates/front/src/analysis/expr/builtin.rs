@@ -168,13 +168,19 @@ impl Analyzer<'_> {
     /// Reports a built-in function that this stage, version or profile has not. `given` are the types of the arguments, as far as
     /// they are known.
     fn report_unavailable(&mut self, name: Ident, rows: &[&'static Row], given: &[TypeId]) {
-        let (spelling, stage) = (self.name(name), self.stage.name());
+        let spelling = self.name(name);
         let (version, extensions) = (self.ast.version, self.extensions);
-        let elsewhere: Vec<&str> = Stage::ALL
-            .into_iter()
-            .filter(|&stage| rows.iter().any(|row| row.availability.holds(version, extensions, stage)))
-            .map(Stage::name)
-            .collect();
+        // No version brings a function into a stage for which none has it.
+        let is_of_stage = rows.iter().any(|row| row.availability.stages.has(self.stage));
+        let has = |stage: Stage| {
+            let mut rows = rows.iter().map(|row| row.availability);
+            if is_of_stage {
+                rows.any(|one| one.holds(version, extensions, stage))
+            } else {
+                rows.any(|one| one.stages.has(stage))
+            }
+        };
+        let elsewhere: Vec<&str> = Stage::ALL.into_iter().filter(|&stage| has(stage)).map(Stage::name).collect();
         let finding = if elsewhere.is_empty() {
             let message = format!("the function `{spelling}` is not in {}", version.name());
             // The overload that takes these arguments may need another extension than the others.
@@ -183,14 +189,17 @@ impl Analyzer<'_> {
             let finding = Diagnostic::new(&names::BUILTIN_UNAVAILABLE, name.span, message).here("not available here");
             of_version(finding.maybe_help(self.remedy(spelling, &rows)), version)
         } else {
-            Diagnostic::new(
-                &names::BUILTIN_UNAVAILABLE,
-                name.span,
-                format!("the function `{spelling}` does not exist in a {stage} shader"),
-            )
-            .here(format!("only in {} shaders", elsewhere.join(" and ")))
+            self.in_other_stages(name, &elsewhere)
         };
         self.report(finding);
+    }
+
+    /// The finding about a function that other stages alone have.
+    fn in_other_stages(&self, name: Ident, stages: &[&str]) -> Diagnostic {
+        let (spelling, stage) = (self.name(name), self.stage.name());
+        let message = format!("the function `{spelling}` does not exist in a {stage} shader");
+        let finding = Diagnostic::new(&names::BUILTIN_UNAVAILABLE, name.span, message);
+        finding.here(format!("only in {} shaders", stages.join(" and ")))
     }
 
     /// How the source gets one of some rows, which it has not: the first of them by preference.

@@ -177,7 +177,10 @@ impl Analyzer<'_> {
             // It may be a parameter that could not be read.
             return;
         }
-        let help = super::foreign::variable(spelling).map(Advice::from);
+        let help = self.is_uncalled_macro(spelling).then(|| {
+            Advice::from(format!("`{spelling}` is a macro with parameters: write `{spelling}(..)` with its arguments"))
+        });
+        let help = help.or_else(|| super::foreign::variable(spelling).map(Advice::from));
         let help = help.or_else(|| super::foreign::of_vulkan(spelling));
         let help = help.or_else(|| self.nearest_variable(spelling).map(Advice::meant));
         let spelling = spelling.to_owned();
@@ -198,6 +201,11 @@ impl Analyzer<'_> {
         if let Some(body) = self.body.as_mut().filter(|_| word == "return") {
             body.returns = true;
         }
+    }
+
+    /// Whether a name is that of a macro that is used without its arguments.
+    fn is_uncalled_macro(&self, spelling: &str) -> bool {
+        self.ast.macros_with_parameters.iter().any(|name| **name == *spelling)
     }
 
     /// The help for a name in capitals, which is most likely a macro that the application defines.

@@ -195,7 +195,9 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         let qualifiers = self.qualifiers()?;
         if !qualifiers.is_empty() {
             match (self.kind(), self.ahead(1).kind) {
-                (TokenKind::Semicolon, _) => return Ok(DeclarationKind::Requalify { qualifiers, names: Vec::new() }),
+                (TokenKind::Semicolon | TokenKind::Layout, _) => {
+                    return Ok(DeclarationKind::Requalify { qualifiers, names: Vec::new() });
+                }
                 (TokenKind::Ident, TokenKind::Comma | TokenKind::Semicolon) => return self.requalify(qualifiers),
                 (TokenKind::Ident, TokenKind::Equal) => {
                     let name = Ident { symbol: self.current.symbol(), span: self.current.span };

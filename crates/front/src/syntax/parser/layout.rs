@@ -281,7 +281,11 @@ fn open_kind(kind: TokenKind) -> bool {
 /// A bracket that nothing closes before a place.
 pub(super) fn unclosed(opening: Token, at: Span) -> Diagnostic {
     let bracket = opening.kind.spelling();
-    let closing = if opening.kind == TokenKind::LeftParen { ")" } else { "]" };
+    let closing = match opening.kind {
+        TokenKind::LeftParen => ")",
+        TokenKind::LeftBrace => "}",
+        _ => "]",
+    };
     Diagnostic::new(&codes::UNCLOSED_DELIMITER, at, format!("`{bracket}` is not closed"))
         .here(format!("expected `{closing}`"))
         .label(opening.span, "opened here")

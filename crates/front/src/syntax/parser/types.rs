@@ -62,6 +62,8 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             if let Some(kind) = qualifier(self.kind()) {
                 self.bump();
                 list.push(Qualifier { kind, span: start.span });
+            } else if self.is_next_layout(&list) {
+                return Ok(list);
             } else if self.kind() == TokenKind::Layout || self.is_later_layout() {
                 let kind = QualifierKind::Layout(self.layout()?);
                 list.push(Qualifier { kind, span: self.since(start) });
@@ -77,6 +79,20 @@ impl<T: TokenSource> Parser<'_, '_, T> {
                 return Ok(list);
             }
         }
+    }
+
+    /// Whether the next line begins a declaration of its own, `layout(..) out`, behind qualifiers that lack their `;`: `layout(..) in`.
+    fn is_next_layout(&mut self, list: &[Qualifier]) -> bool {
+        use TokenKind::{In, LeftParen, Out, RightParen, Uniform};
+        let is_storage =
+            |kind: &QualifierKind| matches!(kind, QualifierKind::In | QualifierKind::Out | QualifierKind::Uniform);
+        let is_whole = matches!(list, [.., layout, storage]
+            if matches!(layout.kind, QualifierKind::Layout(_)) && is_storage(&storage.kind));
+        if !is_whole || self.kind() != TokenKind::Layout || !self.current.starts_line() {
+            return false;
+        }
+        let behind = self.past_bracket(1, LeftParen, RightParen);
+        matches!(self.ahead(behind).kind, In | Out | Uniform)
     }
 
     /// Reports qualifiers behind the type, as in `vec3 in n`, and reads them as if they were in front of it.

@@ -90,6 +90,11 @@ const ENDS: &[&str] = &["elif", "else", "endif"];
 static ENGINES: &[(&str, &str)] =
     &[("moj_import", "Minecraft replaces it: `--engine minecraft` or `--include-style moj` does the same")];
 
+/// Whether this is the name of a directive.
+pub(super) fn is_directive(name: &str) -> bool {
+    directive_named(name).is_some()
+}
+
 fn directive_named(name: &str) -> Option<Directive> {
     DIRECTIVES.iter().find(|row| row.0 == name).map(|row| row.1)
 }

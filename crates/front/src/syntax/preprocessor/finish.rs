@@ -1,6 +1,7 @@
 //! Turns preprocessing tokens into tokens: distinguishes keywords from names, converts numbers to values, and reports
 //! and drops what is not a token (GLSL 1.50 §3.1, §3.6, §4.1).
 
+use super::directive::is_directive;
 use super::{Feature, ParseSession, Preprocessor, Span, Token, TokenKind, codes, kind};
 use crate::diagnostic::codes::syntax;
 use crate::diagnostic::{Advice, Applicability, Diagnostic, Place};
@@ -38,11 +39,7 @@ impl Preprocessor<'_> {
                 token.kind = kind;
             }
             TokenKind::Hash | TokenKind::HashHash => {
-                let message = format!("`{}` where no directive can be", token.kind.spelling());
-                let diagnostic = Diagnostic::new(&codes::MISPLACED_HASH, token.span, message)
-                    .here("neither first on its line nor an operator");
-                session.report(diagnostic);
-                self.dropped = true;
+                self.misplaced_hash(session, token);
                 return None;
             }
             TokenKind::Eof => {
@@ -71,6 +68,20 @@ impl Preprocessor<'_> {
 }
 
 impl Preprocessor<'_> {
+    /// Reports a `#` inside of a line. The words behind it are a comment of another language, or a directive: they are no code.
+    fn misplaced_hash(&mut self, session: &mut ParseSession<'_>, token: Token) {
+        let message = format!("`{}` where no directive can be", token.kind.spelling());
+        let diagnostic = Diagnostic::new(&codes::MISPLACED_HASH, token.span, message)
+            .here("neither first on its line nor an operator");
+        let help = words_help(rest_of_line(session, token));
+        // In a macro's text or arguments, the rest of the line is not what follows.
+        if help.is_some() && self.contexts.is_empty() {
+            self.skip_line(session);
+        }
+        session.report(diagnostic.maybe_help(help));
+        self.dropped = true;
+    }
+
     /// Warns, once, about a reserved name, and reports one that is too long.
     fn check_word(&self, session: &mut ParseSession<'_>, token: Token) {
         self.check_length(session, token);
@@ -90,6 +101,28 @@ impl Preprocessor<'_> {
             session.report(Diagnostic::new(&codes::NAME_TOO_LONG, name.span, message).here(here));
         }
     }
+}
+
+/// The text of a token's line behind it.
+fn rest_of_line<'s>(session: &'s ParseSession<'_>, token: Token) -> &'s str {
+    let line = session.sources.line_of(token.span).unwrap_or(token.span);
+    session.sources.snippet(Span { start: token.span.end, end: line.end.max(token.span.end), ..token.span })
+}
+
+/// The help for a `#`, if words follow it.
+fn words_help(rest: &str) -> Option<&'static str> {
+    let word: String = rest.trim_start().chars().take_while(|letter| letter.is_alphanumeric()).collect();
+    if is_directive(&word) {
+        return Some("put the directive on a line of its own");
+    }
+    let is_apart = rest.starts_with([' ', '\t', '#']);
+    let is_word = word.len() > 1 && word.starts_with(char::is_alphabetic);
+    (is_word && (is_apart || !is_color(&word))).then_some("`//` begins a comment in GLSL")
+}
+
+/// Whether a word behind a `#` may be a color of a page.
+fn is_color(word: &str) -> bool {
+    matches!(word.len(), 3 | 4 | 6 | 8) && word.chars().all(|digit| digit.is_ascii_hexdigit())
 }
 
 fn number(session: &mut ParseSession<'_>, token: &mut Token) {

@@ -69,6 +69,7 @@ pub(super) struct PreprocessorOutcome {
     /// The texts of an engine that were read before the source.
     pub(super) preludes: Vec<FileId>,
     pub(super) macros: Vec<Arc<str>>,
+    pub(super) macros_with_parameters: Vec<Arc<str>>,
     /// For each word by its symbol, whether the result depends on what macro it names.
     pub(super) asked: Vec<bool>,
     pub(super) directives: Directives,
@@ -198,6 +199,7 @@ impl<'a> Preprocessor<'a> {
                 unrolled: Vec::new(),
                 preludes: Vec::new(),
                 macros: Vec::new(),
+                macros_with_parameters: Vec::new(),
                 asked: Vec::new(),
                 directives: Directives::default(),
             },
@@ -215,14 +217,13 @@ impl<'a> Preprocessor<'a> {
     /// The outcome, after the parser has read the last token.
     pub(super) fn finish(mut self) -> PreprocessorOutcome {
         self.outcome.version = self.version;
-        let is_plain = |definition: &&Macro| definition.params.is_none() && !definition.is_predefined();
-        let names = self
-            .macros
-            .iter()
-            .filter(is_plain)
-            .take(condition::MAX_COMPARED)
-            .map(|definition| Arc::clone(&definition.name));
-        self.outcome.macros = names.collect();
+        let names = |has_parameters: bool| {
+            let own = self.macros.iter().filter(|definition| !definition.is_predefined());
+            let wanted = own.filter(|definition| definition.params.is_some() == has_parameters);
+            wanted.take(condition::MAX_COMPARED).map(|definition| Arc::clone(&definition.name)).collect::<Vec<_>>()
+        };
+        let (plain, with_parameters) = (names(false), names(true));
+        (self.outcome.macros, self.outcome.macros_with_parameters) = (plain, with_parameters);
         let defined = self.words.iter().filter_map(|word| (word.definition as usize).checked_sub(1));
         let spans = defined.filter_map(|index| self.macros.get(index)).map(|definition| definition.span);
         self.outcome.directives.defined = spans.filter(|span| span.is_known()).collect();

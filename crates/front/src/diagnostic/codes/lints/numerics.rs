@@ -34,7 +34,8 @@ lints! {
         "A loop counts in steps that a float does not have exactly. Rounding adds up and decides how often the loop \
          runs."
         why
-        "Steps that are exact in binary, such as 1.0 or 0.25, are left out."
+        "Steps that are exact in binary, such as 1.0 or 0.25, are left out, and so are ends that are no whole number of steps away, \
+         such as 1.0 in steps of 0.15: any rounding gives seven rounds."
         bad Fragment(
             "out vec4 c; void main() { c = vec4(0.0); for (float t = 0.0; t < 1.0; t += 0.1) c += t; }"),
         good Fragment(
