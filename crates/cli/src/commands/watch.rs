@@ -19,7 +19,7 @@ use std::ffi::OsString;
 use std::path::{Component, Path, PathBuf};
 use std::process::Command;
 use std::sync::mpsc::{Receiver, channel};
-use std::time::{Duration, SystemTime};
+use std::time::{Duration, Instant, SystemTime};
 use tempfile::NamedTempFile;
 
 /// Examples of its use.
@@ -217,8 +217,13 @@ fn next_change(changes: &Receiver<Event>, watched: &Watched) -> Option<PathBuf> 
         let event = changes.recv().ok()?;
         let Some(changed) = watched.path_of(&event) else { continue };
         let mut paths = vec![changed];
-        while let Ok(event) = changes.recv_timeout(TOGETHER) {
-            paths.extend(event.paths.into_iter().filter(|path| watched.counts(path)));
+        // What does not count, such as files that somebody reads all the time, does not put it off.
+        let mut end = Instant::now() + TOGETHER;
+        while let Ok(event) = changes.recv_timeout(end.saturating_duration_since(Instant::now())) {
+            if let Some(path) = watched.path_of(&event) {
+                paths.push(path);
+                end = Instant::now() + TOGETHER;
+            }
         }
         // Editors write to a name of their own, which is gone when they have renamed it.
         let there = paths.iter().rev().find(|path| path.is_file()).cloned();
