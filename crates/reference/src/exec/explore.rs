@@ -55,7 +55,7 @@ impl<D: Domain> Machine<D> {
         let mut joined = self.first_outcome();
         joined.unlimited = hopeless.iter().fold(0, |all, number| all | members << (number * group));
         let inputs = self.copy_inputs();
-        let spent = self.loop_budget - self.budget;
+        let spent = self.loop_budget.saturating_sub(self.budget + self.last.budget);
         let allowance = (LONGER * spent + AT_LEAST).min(self.loop_budget);
         let mut packed = (capacity / PACKED).max(1);
         let mut rest = &open[..];

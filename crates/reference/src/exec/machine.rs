@@ -22,6 +22,32 @@ use std::sync::Arc;
 /// it.
 pub const LOOP_BUDGET: u64 = 1 << 24;
 
+/// The last rounds that the budget of a run allows. The loops that go on in them, and no loop around them, do not end.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct LastRounds {
+    /// The budget for them.
+    pub(super) budget: u64,
+    /// The head and the last instruction of the outermost loop that went on.
+    pub(super) outermost: Option<(usize, usize)>,
+}
+
+impl LastRounds {
+    /// The last rounds of a run with this budget.
+    fn of(budget: u64) -> Self {
+        Self { budget: budget >> 4, outermost: None }
+    }
+
+    /// Takes the cost of a round of a loop. Returns whether there was as much.
+    pub(super) fn take(&mut self, cost: u64, (head, end): (usize, usize)) -> bool {
+        if self.outermost.is_none_or(|known| head <= known.0 && end >= known.1) {
+            self.outermost = Some((head, end));
+        }
+        let left = self.budget.checked_sub(cost);
+        self.budget = left.unwrap_or(0);
+        left.is_some()
+    }
+}
+
 /// The registers of one thread for one draw. Reusable: run it tile after tile.
 #[derive(Debug)]
 pub struct Machine<D: Domain> {
@@ -42,8 +68,10 @@ pub struct Machine<D: Domain> {
     pub(super) muted: Option<Muted>,
     /// The budget of each run.
     pub(super) loop_budget: u64,
-    /// The rest for this run.
+    /// The rest for this run, but for the [last rounds](Self::last).
     pub(super) budget: u64,
+    /// The end of the budget, in which the loop that does not end is looked for.
+    pub(super) last: LastRounds,
     /// While exploring, the budget after it was exceeded.
     pub(super) allowance: u64,
     /// The [cost](super::cost) of what was executed since somebody asked.
@@ -135,6 +163,7 @@ impl<D: Domain> Machine<D> {
             muted,
             loop_budget: LOOP_BUDGET,
             budget: LOOP_BUDGET,
+            last: LastRounds::default(),
             allowance: 0,
             executed: 0,
             most_rounds: None,
@@ -209,7 +238,9 @@ impl<D: Domain> Machine<D> {
         self.ways.begin_first();
         self.streams.clear();
         // A machine that has exceeded its budget is likely to do so again. Then it should end soon.
-        self.budget = if self.budget_exceeded { self.loop_budget >> 6 } else { self.loop_budget };
+        let budget = if self.budget_exceeded { self.loop_budget >> 6 } else { self.loop_budget };
+        self.last = LastRounds::of(budget);
+        self.budget = budget - self.last.budget;
         // A guess looks at whole quads.
         self.watched = if self.guess.is_some() { live.0 | helpers.0 } else { live.0 };
         self.mute_input();

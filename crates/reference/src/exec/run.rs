@@ -12,6 +12,7 @@ impl<D: Domain> Machine<D> {
         let mut mask = start;
         let mut place = 0;
         self.whole = start;
+        self.last.outermost = None;
         let watched = self.observer.is_some();
         let corrected = self.exactly.is_some();
         let guessed = self.guess.is_some();
@@ -132,8 +133,12 @@ impl<D: Domain> Machine<D> {
                                 place = exit as usize;
                                 continue;
                             }
+                            if self.last.take(cost, (head as usize, place - 1)) {
+                                place = head as usize;
+                                continue;
+                            }
                             self.budget = 0;
-                            self.run_away(section, place - 1);
+                            self.run_away(section, self.last.outermost.map_or(place - 1, |(_, end)| end));
                             place = exit as usize;
                         }
                     }
@@ -179,10 +184,11 @@ impl<D: Domain> Machine<D> {
         }
     }
 
-    /// Records that the program does not come to an end at an instruction.
+    /// Records that the program does not come to an end at an instruction. Loops around it are left after it, and do end.
     fn run_away(&mut self, section: &Section, place: usize) {
-        self.budget_exceeded = true;
-        self.runaway = section.spans.get(place).copied().unwrap_or_default();
+        if !std::mem::replace(&mut self.budget_exceeded, true) {
+            self.runaway = section.spans.get(place).copied().unwrap_or_default();
+        }
     }
 }
 

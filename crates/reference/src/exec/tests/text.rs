@@ -127,6 +127,24 @@ fn an_endless_loop_ends_and_is_reported() {
     assert_eq!(output(&program, &machine)[5][0], 70000.0);
 }
 
+/// The loop that does not end is named, and neither one around it nor one in it.
+#[test]
+fn the_loop_that_does_not_end_is_named() {
+    let inner = "for (int i = 0; i < 2; i++) { do { o.x += 1.0; } while (o.y < 1.0); }";
+    let outer =
+        "while (o.y < 1.0) { for (int i = 0; i < 30; i++) o.x += 1.0; for (int i = 0; i < 30; i++) o.x += 1.0; }";
+    let called = "for (int i = 0; i < 2; i++) o.x += f(o.y);";
+    for (body, named) in [(inner, "do "), (outer, "while ("), (called, "while (x")] {
+        let text = format!(
+            "float f(float x) {{ while (x < 1.0) {{ for (int k = 0; k < 3; k++) x *= 0.5; }} return x; }}\n\
+             void main() {{ o = vec4(0); {body} }}"
+        );
+        let (program, sources) = compiled_with_sources(&text);
+        let place = ran::<F64>(&program, &[], |_, _| 0.0).endless_loop().expect("it does not end");
+        assert!(sources.snippet(place).starts_with(named), "{body}: {}", sources.snippet(place));
+    }
+}
+
 #[test]
 fn calls_that_no_machine_could_make_end_the_run_only_where_a_lane_reaches_them() {
     let mut functions = String::from("float f0(float x) { return exp(x); }\n");
