@@ -45,7 +45,7 @@ fn shells_complete_commands_and_help_explains_them() {
         for word in ["new-scene", "bind-attrib", "verify"] {
             assert!(out(&output).contains(word), "{shell}: {word}");
         }
-        for hidden in [" -0 ", "--worker"] {
+        for hidden in [" -0 ", "--worker", " worker", "The digit of"] {
             assert!(!out(&output).contains(hidden), "{shell}: {hidden}");
         }
     }

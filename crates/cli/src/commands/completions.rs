@@ -28,10 +28,8 @@ pub(crate) fn run(args: &CompletionsArgs, console: &Console) -> Outcome {
     let mut program = Cli::command();
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut program, "glisten", &mut script);
-    if args.shell == Shell::Bash {
-        script = without(&hidden(&program), &String::from_utf8_lossy(&script)).into_bytes();
-    }
-    console.output_bytes(&script)?;
+    let script = without(&hidden(&program), &String::from_utf8_lossy(&script));
+    console.output_bytes(script.as_bytes())?;
     Ok(Exit::Ok)
 }
 
@@ -49,7 +47,7 @@ fn hidden(program: &Command) -> BTreeSet<String> {
     flags(true).filter(|flag| !shown.contains(flag)).collect()
 }
 
-/// The script for bash, whose lists of flags have the hidden ones, too.
+/// The script without what names these flags: words of the lists of bash, lines for the other shells.
 fn without(hidden: &BTreeSet<String>, script: &str) -> String {
     let mut text = String::new();
     for line in script.split_inclusive('\n') {
@@ -58,8 +56,18 @@ fn without(hidden: &BTreeSet<String>, script: &str) -> String {
                 let words: Vec<&str> = list.split(' ').filter(|word| !hidden.contains(*word)).collect();
                 text.push_str(&format!("{indent}opts=\"{}", words.join(" ")));
             }
+            None if hidden.iter().any(|flag| offers(line, flag)) => {}
             None => text.push_str(line),
         }
     }
     text
+}
+
+/// Whether a line of a script for zsh, PowerShell, Elvish or fish offers a flag.
+fn offers(line: &str, flag: &str) -> bool {
+    let for_fish = flag
+        .strip_prefix("--")
+        .map_or_else(|| format!(" -s {} ", flag.trim_start_matches('-')), |long| format!(" -l {long} "));
+    let forms = [format!("{flag}["), format!("'{flag}', '{flag}'"), format!("cand {flag} "), for_fish];
+    forms.iter().any(|form| line.contains(form.as_str()))
 }

@@ -14,20 +14,20 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
     for (place, statement) in subject.statements() {
         match statement.kind {
             StmtKind::Expr(root) | StmtKind::Loop { step: Some(root), .. } => {
-                judge(subject, place, root, findings);
+                report(subject, place, root, findings);
             }
             _ => {}
         }
     }
     for (place, expr) in subject.exprs() {
         if let ExprKind::Comma(first, _) = place.kind(expr) {
-            judge(subject, place, *first, findings);
+            report(subject, place, *first, findings);
         }
     }
 }
 
 /// Reports the value of an expression that nothing takes.
-fn judge(subject: &Subject<'_>, place: &Place<'_>, whole: ExprId, findings: &mut Findings<'_>) {
+fn report(subject: &Subject<'_>, place: &Place<'_>, whole: ExprId, findings: &mut Findings<'_>) {
     let mut root = whole;
     let mut comma = None;
     while let ExprKind::Comma(first, last) = place.kind(root) {
@@ -46,10 +46,10 @@ fn judge(subject: &Subject<'_>, place: &Place<'_>, whole: ExprId, findings: &mut
     match assigning(subject, place, root) {
         Some((operator, text)) => {
             let finding = findings.at(operator, "nothing takes the result of this operator");
-            let finding = finding.label(span, "it changes nothing");
+            let finding = finding.label(span, "it is dropped");
             findings.push(subject.texts.advised(finding, Applicability::Unsafe, Some(text)));
         }
-        None => findings.push(findings.at(span, "nothing takes this value").here("it changes nothing")),
+        None => findings.push(findings.at(span, "nothing takes this value").here("it is dropped")),
     }
 }
 
