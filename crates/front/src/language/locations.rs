@@ -1,6 +1,7 @@
 //! How many locations a type takes, as a varying and as a uniform.
 
-use super::types::{ArraySize, Type, TypeId, Types};
+use super::types::{ArraySize, StructId, Type, TypeId, Types};
+use rustc_hash::FxHashMap;
 
 impl Types {
     /// The number of locations of a varying (GLSL 4.50 §4.4.1): one for a scalar or a vector, one for each column. An array without a
@@ -25,12 +26,22 @@ impl Types {
     /// The number of scalars, vectors, matrices and samplers of a type, each of which takes a location as a uniform (GLSL 4.30 §4.4.3). An
     /// array without a size counts as one element, and the number saturates.
     pub fn leaves(&self, id: TypeId) -> u32 {
+        self.leaves_known(id, &mut FxHashMap::default())
+    }
+
+    /// Each struct is counted once, however many members have it.
+    fn leaves_known(&self, id: TypeId, known: &mut FxHashMap<StructId, u32>) -> u32 {
         match self.get(id) {
-            Type::Array(element, ArraySize::Sized(size)) => size.saturating_mul(self.leaves(element)),
-            Type::Array(element, ArraySize::Unsized) => self.leaves(element),
+            Type::Array(element, ArraySize::Sized(size)) => size.saturating_mul(self.leaves_known(element, known)),
+            Type::Array(element, ArraySize::Unsized) => self.leaves_known(element, known),
             Type::Struct(id) => {
-                let counts = self.structure(id).members.iter().map(|member| self.leaves(member.ty));
-                counts.fold(0, u32::saturating_add)
+                if let Some(count) = known.get(&id) {
+                    return *count;
+                }
+                let members = self.structure(id).members.iter();
+                let count = members.fold(0, |sum: u32, member| sum.saturating_add(self.leaves_known(member.ty, known)));
+                known.insert(id, count);
+                count
             }
             Type::Scalar(_) | Type::Vector(..) | Type::Matrix(..) | Type::Sampler(_) | Type::Void | Type::Error => 1,
         }
