@@ -1,4 +1,5 @@
-//! `unwritten-output`: a color that a fragment shader declares and never writes, or of which it never writes a component.
+//! `unwritten-output`: a color that a fragment shader declares and never writes, or of which it never writes a component. Red alone, or red
+//! and green, may be all that the framebuffer has.
 
 use super::super::{Findings, Subject, parts};
 use crate::builtin::BuiltinVariable;
@@ -18,7 +19,10 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
             continue;
         }
         let whole = parts::of_type(&subject.program.types, output.ty);
-        let missing = whole.map_or(0, |whole| whole & !written.get(&id).copied().unwrap_or(parts::ALL));
+        let written = written.get(&id).copied().unwrap_or(parts::ALL);
+        // Those of a buffer with one or two channels.
+        let is_short = [0b1, 0b11].contains(&written);
+        let missing = whole.filter(|_| !is_short).map_or(0, |whole| whole & !written);
         if let Some(span) = first_use(fragment, id).filter(|_| missing != 0) {
             let names = parts::named(missing, "rgba");
             let message = format!("`{}.{names}` is never written", output.name);
