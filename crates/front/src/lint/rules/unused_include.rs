@@ -110,7 +110,8 @@ fn words(lexemes: &Lexemes) -> Vec<String> {
             in_include = Lexemes::begins_directive(token) && matches!(directive, "include" | "import" | "moj_import");
         }
         let word = lexemes.spelling(token);
-        if !in_include && !(is_swizzle(word) && is_after_dot(lexemes, index)) && seen.insert(word) {
+        let is_component = is_swizzle(word) && is_after_dot(lexemes, index);
+        if !in_include && !is_component && seen.insert(word) {
             words.push(word.to_owned());
         }
     }
