@@ -955,4 +955,10 @@ vec3 standardColor(Reflection reflection, vec3 emission, vec3 decal)
     return safeLimit(safeLimit(reflection.body * decal) + safeLimit(reflection.gloss + emission));
 }
 
+// The same for a material without a coat.
+vec3 standardColor(Reflection reflection, vec3 decal)
+{
+    return standardColor(reflection, STANDARD_MATERIAL.emission, decal);
+}
+
 #endif

@@ -16,7 +16,8 @@ const MAX_ELEMENTS: u32 = 32;
 pub(crate) const CORNER: &str = "corner";
 
 /// The `#version` line of a shader that is written for another one. The stages of a program of OpenGL ES have one version, and those of
-/// OpenGL any; varyings with locations need GLSL 4.10, and those of samples 4.00.
+/// OpenGL any; varyings with components need GLSL 4.40, those with locations 4.10,
+/// and those of samples 4.00.
 pub(crate) fn version_line<'g>(
     other: &Shader,
     has_fixed: bool,
@@ -27,6 +28,7 @@ pub(crate) fn version_line<'g>(
         return if number < 300 { "#version 100".to_owned() } else { format!("#version {number} es") };
     }
     let least = match () {
+        () if varyings.clone().any(|global| global.component.is_some()) => 440,
         () if varyings.clone().any(|global| global.location.is_some()) => 410,
         () if varyings.clone().any(|global| global.sampling == Sampling::Sample) => 400,
         () => 150,
