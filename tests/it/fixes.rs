@@ -277,7 +277,7 @@ fn protected_files_are_not_replaced() {
     }
 }
 
-/// What an extension of OpenGL mends is not mended by it in OpenGL ES; and no fix is written again and again.
+/// An extension of OpenGL mends nothing in OpenGL ES; and no fix is written again and again.
 #[test]
 fn an_include_of_es_gets_no_extension() {
     let header = b"highp float f() { return 1.0; }\n" as &[u8];

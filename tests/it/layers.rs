@@ -329,7 +329,7 @@ fn a_brush_is_the_same_line_from_both_sides() {
     }
 }
 
-/// What the surface sends out comes through the coat, at each vertex and at each fragment.
+/// The coat is over the light that the surface sends out.
 #[test]
 fn emission_is_under_the_coat() {
     for (coat, wanted) in [(0.0, 1.0), (0.5, 0.98), (1.0, 0.96)] {

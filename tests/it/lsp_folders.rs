@@ -88,7 +88,7 @@ fn a_prelude_is_a_document_like_others() {
     }
 }
 
-/// What both branches of a condition declare has one name after the rename, too; where a branch may mean another thing, it is refused.
+/// A name that both branches of a condition declare is renamed in both; where a branch may mean another thing, the rename is refused.
 #[test]
 fn renames_keep_the_other_branch() {
     let head = "#version 330\nout vec4 c;\n";

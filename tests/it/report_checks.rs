@@ -180,7 +180,7 @@ fn of_three_identical_ways_none_beats_another() {
     }
 }
 
-/// The text of a variant is written anew; what is wrong in it is told where the scene's file has it.
+/// Each variant has a text of its own; a mistake in it is told where the file of the scene has it.
 #[test]
 fn mistakes_of_a_way_are_told_on_their_lines() {
     let folder = tempfile::tempdir().expect("a temporary folder");

@@ -28,7 +28,10 @@ pub struct Shown {
 
 /// The answer for a scene file, with the scene if there is one.
 pub fn look(criteria: &mut impl Criteria, name: &str, loaded: Loaded, shown: Shown) -> (Value, Option<Scene>) {
-    let Loaded { scene, sources, diagnostics, .. } = loaded;
+    let Loaded { scene, sources, diagnostics, io_error } = loaded;
+    // A scene that cannot be read has no text; in the page, one may be left.
+    let is_read =
+        !io_error || sources.files().next().is_none_or(|(_, file)| file.name() != name || !file.text().is_empty());
     // Errors in the configuration of the scene are told even if the scene has none.
     criteria.levels_of(name);
     let programs = scene.as_ref().map(programs).unwrap_or_default();
@@ -43,7 +46,7 @@ pub fn look(criteria: &mut impl Criteria, name: &str, loaded: Loaded, shown: Sho
     let residual = residual.as_ref().map(|residual| self::programs(&residual.scene));
     let answer = json!({
         "findings": findings,
-        "files": files(&sources),
+        "files": files(&sources, is_read),
         "controls": controls(&text),
         "programs": translations(criteria, &sources, residual.as_deref().unwrap_or(&programs), shown.target),
         "size": scene.as_ref().map(|scene| [scene.framebuffer.width, scene.framebuffer.height]),
@@ -68,11 +71,11 @@ fn lints(criteria: &mut impl Criteria, program: &Program, sources: &SourceMap) -
     criteria.guarded(|| check_some(program, sources, wanted)).unwrap_or_default()
 }
 
-/// The texts that were read, the scene file first.
-fn files(sources: &SourceMap) -> Vec<Value> {
+/// The texts that were read, the scene file first if it is one of them.
+fn files(sources: &SourceMap, is_scene_read: bool) -> Vec<Value> {
     let file =
         |(_, file): (_, &glisten_front::source::SourceFile)| json!({ "name": file.name(), "text": &**file.text() });
-    sources.files().map(file).collect()
+    sources.files().skip(usize::from(!is_scene_read)).map(file).collect()
 }
 
 #[cfg(test)]

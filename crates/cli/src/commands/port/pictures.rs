@@ -60,7 +60,7 @@ pub(super) fn judged(
         Some(dialect) => unit.read_back(index, &ported.plain, dialect),
         None => (unit.compiler.clone(), unit.sources.clone()),
     };
-    let made = made_stages(path, old, &before);
+    let made = made_stages(path, old, &before, &new_sources);
     let own = new_sources.iter().map(|source| (NewFiles::key(&source.name), &*source.text));
     let texts: BTreeMap<PathBuf, &str> =
         made.iter().map(|(path, text)| (path.clone(), text.as_str())).chain(own).collect();
@@ -243,18 +243,58 @@ fn is_es(scene: &Scene) -> bool {
     stages.any(|shader| shader.version.profile == Profile::Es)
 }
 
-/// The stages that were made for a program that lacks them, in a language that goes with its new texts.
-fn made_stages(scene: &std::path::Path, compiler: &Compiler, before: &Scene) -> Vec<(PathBuf, String)> {
+/// The stages that were made for a program that lacks them, in a language and with locations that go with its new texts.
+fn made_stages(
+    scene: &std::path::Path,
+    compiler: &Compiler,
+    before: &Scene,
+    new_sources: &[Source],
+) -> Vec<(PathBuf, String)> {
     let files = scene.parent().and_then(|folder| fs::read_dir(folder).ok());
-    let paths = files.into_iter().flatten().flatten().map(|entry| entry.path()).filter(|_| is_es(before));
+    let paths = files.into_iter().flatten().flatten().map(|entry| entry.path());
     let new = |path: PathBuf| {
         let stage = stages::by_name(&path)?;
         let text = fs::read_to_string(&path).ok()?;
-        let source = Source { name: path.to_string_lossy().into_owned(), text: text.into(), stage };
-        let upgraded = upgrade(compiler, &[source], Target::Core450).ok()?;
-        Some((NewFiles::key(&path.to_string_lossy()), upgraded.texts.into_iter().next()?))
+        let text = if is_es(before) {
+            let source = Source { name: path.to_string_lossy().into_owned(), text: text.into(), stage };
+            upgrade(compiler, &[source], Target::Core450).ok()?.texts.into_iter().next()?
+        } else {
+            text
+        };
+        Some((NewFiles::key(&path.to_string_lossy()), located(&text, new_sources)))
     };
     paths.filter_map(new).collect()
+}
+
+/// A text whose varyings have the locations that those of the same name have in other stages.
+fn located(text: &str, others: &[Source]) -> String {
+    let mut is_located = false;
+    let lines = text.lines().map(|line| {
+        let name =
+            line.strip_suffix(';').and_then(|line| line.rsplit(' ').next()).filter(|_| !line.contains("layout("));
+        let is_varying = format!(" {line}").contains(" out ") || format!(" {line}").contains(" in ");
+        match name.filter(|_| is_varying).and_then(|name| location(name, others)) {
+            Some(location) => {
+                is_located = true;
+                format!("layout(location = {location}) {line}")
+            }
+            None => line.to_owned(),
+        }
+    });
+    let text = lines.collect::<Vec<_>>().join("\n") + "\n";
+    if is_located { text.replacen("#version 150\n", "#version 410\n", 1) } else { text }
+}
+
+/// The location that a varying of this name has in one of these texts.
+fn location(name: &str, sources: &[Source]) -> Option<u32> {
+    sources.iter().flat_map(|source| source.text.lines()).find_map(|line| {
+        let declared = line.trim().strip_suffix(';')?;
+        if declared.rsplit(' ').next() != Some(name) || !(declared.contains(" in ") || declared.contains(" out ")) {
+            return None;
+        }
+        let (_, value) = declared.split_once("location = ")?;
+        value.split([')', ',']).next()?.trim().parse().ok()
+    })
 }
 
 fn absolute(path: &std::path::Path) -> String {

@@ -41,7 +41,7 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
     }
 }
 
-/// Tells of the components of locals that the function reads and nothing in it assigns, but for locals of which a read is known.
+/// Reports the components of locals that the function reads and nothing in it assigns, but for locals of which a read is known.
 fn tell_components(
     subject: &Subject<'_>,
     findings: &mut Findings<'_>,
