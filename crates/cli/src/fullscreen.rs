@@ -16,7 +16,7 @@ const MAX_ELEMENTS: u32 = 32;
 pub(crate) const CORNER: &str = "corner";
 
 /// The `#version` line of a shader that is written for another one. The stages of a program of OpenGL ES have one version, and those of
-/// OpenGL any; varyings with components need GLSL 4.40, those with locations 4.10,
+/// OpenGL any; varyings with components and blocks with locations need GLSL 4.40, varyings with locations 4.10,
 /// and those of samples 4.00.
 pub(crate) fn version_line<'g>(
     other: &Shader,
@@ -27,8 +27,10 @@ pub(crate) fn version_line<'g>(
     if other.version.is_es() {
         return if number < 300 { "#version 100".to_owned() } else { format!("#version {number} es") };
     }
+    let is_enhanced =
+        |global: &Global| global.component.is_some() || global.location.is_some() && global.block.is_some();
     let least = match () {
-        () if varyings.clone().any(|global| global.component.is_some()) => 440,
+        () if varyings.clone().any(is_enhanced) => 440,
         () if varyings.clone().any(|global| global.location.is_some()) => 410,
         () if varyings.clone().any(|global| global.sampling == Sampling::Sample) => 400,
         () => 150,
