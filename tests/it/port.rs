@@ -491,6 +491,17 @@ fn a_lone_stage_of_es_is_proved() {
     has(&said, &["the reference draws the same bytes", "100 % of them judged, 0 outside\n", " 0 failed"]);
 }
 
+/// The stage that is made for a lone one has the locations of the new text.
+#[test]
+fn a_lone_stage_of_opengl_is_proved() {
+    let shader =
+        b"#version 150\nin vec2 uv;\nuniform vec4 tint;\nout vec4 c;\nvoid main() { c = vec4(uv, 0.5, 1.0) * tint; }\n";
+    let folder = Folder::new(&[("in/a.frag", shader)]);
+    let output = folder.run(&["port", "in", "--for", "vulkan", "--prove", "-o", "out"]);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    has(&err(&output), &["1 proved", " 0 failed"]);
+}
+
 /// Mesa's OpenGL clips by distances that are not enabled: both scenes enable what the original writes.
 #[test]
 fn clip_distances_cut_both_pictures() {

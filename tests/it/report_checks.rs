@@ -187,15 +187,22 @@ fn mistakes_of_a_way_are_told_on_their_lines() {
     let path = small_scene(folder.path());
     let text = std::fs::read_to_string(&path).expect("the scene");
     let (scene, _) = text.split_once("[report]").expect("it has a report table");
-    for set in ["{ uniforms = { tnt = [0, 1, 0] } }", "{ fragment = \"nope.frag\" }"] {
+    for (set, word) in [
+        ("{ uniforms = { tnt = [0, 1, 0] } }", "tnt"),
+        ("{ uniforms = { n = 1.0 } }", "n ="),
+        ("{ fragment = \"nope.frag\" }", "nope"),
+    ] {
         let text =
             format!("# a comment\n\n{scene}[report]\n[[report.way]]\nname = \"mine\"\ntruth = true\nset = {set}\n");
         std::fs::write(&path, &text).expect("written");
         let run = report_with(&path, &folder.path().join("out"), &["-q", "--diagnostics", "json"]);
         assert_ne!(code(&run), Some(0), "{}", told(&run));
         let line = text.lines().position(|line| line.contains(set)).expect("it is there") + 1;
+        let column = format!("set = {set}").find(word).expect("it is there") + 1;
         let told = told(&run);
-        assert!(told.contains(&format!("\"line\": {line},")) && told.contains("of the way `mine`"), "{line}: {told}");
+        let places = [format!("\"line\": {line},"), format!("\"column\": {column},")];
+        let is_there = places.iter().all(|place| told.contains(place));
+        assert!(is_there && told.contains("of the way `mine`"), "{places:?}: {told}");
     }
 }
 

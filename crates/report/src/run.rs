@@ -203,8 +203,8 @@ impl Files<'_> {
     }
 }
 
-/// An error in a variant's text, at the place of the scene's file that it comes from: the same word in the keys of the variant, or
-/// elsewhere, or else the keys. Where another file is wrong, the error stays.
+/// An error in a variant's text, at the place of the scene's file that it comes from: the same word in the keys of the variant, or else
+/// all of these keys, since the scene without them has no error. Where another file is wrong, the error stays.
 fn placed(error: Error, way: &WayText, (path, text): (&str, &str)) -> Error {
     let Error::Scene { sources, diagnostics, io_error } = error else { return error };
     let in_scene = |span: Span| sources.file_of(span).filter(|file| sources.file(*file).name() == path);
@@ -219,8 +219,13 @@ fn placed(error: Error, way: &WayText, (path, text): (&str, &str)) -> Error {
         let file = sources.file(in_scene(span)?);
         let range = (span.start.checked_sub(file.base())?) as usize..(span.end.checked_sub(file.base())?) as usize;
         let word = file.text().get(range)?.trim_matches('"');
-        let find = |range: &Range<usize>| Some(range.start + text.get(range.clone())?.find(word)?);
-        let at = find(&way.set).or_else(|| find(&(0..text.len()))).filter(|_| !word.is_empty())?;
+        let keys = text.get(way.set.clone()).filter(|_| !word.is_empty())?;
+        let is_part = |letter: char| letter.is_alphanumeric() || letter == '_';
+        let is_whole = |at: usize| {
+            let (before, after) = (keys.get(..at).unwrap_or(""), keys.get(at + word.len()..).unwrap_or(""));
+            !before.ends_with(is_part) && !after.starts_with(is_part)
+        };
+        let at = way.set.start + keys.match_indices(word).map(|(at, _)| at).find(|at| is_whole(*at))?;
         Some(whole(at..at + word.len()))
     };
     let mut told = Diagnostics::default();
